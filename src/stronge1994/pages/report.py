@@ -108,7 +108,6 @@ def page(values: TemplateValues, template: str | Path) -> str:
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
         "measured": measured,
-        "microseconds": lambda seconds: number(f"{1e6 * float(seconds)}"),
     }
     environment.tests["in_paper"] = is_of_paper
     return environment.get_template(Path(template).name).render(
