@@ -135,7 +135,7 @@ def _draw_experiment(axes: Axes, curves: Curves, points: Points, experiment: Set
     axes.set_title(rf"$e = {e:g}$,  $\zeta^2 = {zeta2:g}$")
     label, name = f"lumped model, $e = {e:g}$", "lumped.hysteretic, experiment"
     lumped = house_style.line(axes, curves, name, X, Y, label=label, **house_style.LUMPED)
-    models = house_style.draw_lossy_continua(axes, curves, X, Y, f"$e = {e:g}$", "experiment")
+    models = house_style.lossy_continua(axes, curves, X, Y, "experiment")
     return [*house_style.references(axes, points, SHOTS), lumped, *models]
 
 

@@ -219,15 +219,6 @@ def of_restitution(e: float) -> Dashes:
     return (0, (2 + 6 * e, 2)) if e > 0 else DASHES[2]
 
 
-def restitutions(values: Iterable[float]) -> str:
-    """Label for several restitutions.
-
-    >>> restitutions([0.5, 0.8])
-    '$e = 0.5, 0.8$'
-    """
-    return f"$e = {', '.join(f'{e:g}' for e in values)}$"
-
-
 def key(label: str, **style: Any) -> Line2D:
     """Entry of a legend for a line that is not drawn."""
     return Line2D([], [], label=label, **style)
@@ -291,21 +282,20 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
     return list(entries.values())
 
 
-def draw_lossy_continua(
-    axes: Axes, curves: Curves, x: str, y: str, condition: str, end: str = ""
-) -> Entries:
+def lossy_continua(axes: Axes, curves: Curves, x: str, y: str, end: str = "") -> Entries:
     """Draw the continua that lose energy, and return entries of the legend.
 
     They are known by the beginnings of their names; only those are drawn whose names end with
-    `end`. The legend adds `condition` to the name of each model.
+    `end`. An entry has the last part of the name.
     """
-    entries = []
-    for model, (label, style) in LOSSY_CONTINUA.items():
-        own = [name for name in curves if name.startswith(f"{model}, ") and name.endswith(end)]
-        label = f"{label}, {condition}"
-        lines = [line(axes, curves, name, x, y, label=label, **style) for name in own]
-        entries += lines[:1]
-    return entries
+    entries = {}
+    for name in curves:
+        model, _, rest = name.partition(", ")
+        if model in LOSSY_CONTINUA and name.endswith(end):
+            words, style = LOSSY_CONTINUA[model]
+            label = f"{words}, {symbols(rest.split(', ')[-1])}"
+            entries[label] = line(axes, curves, name, x, y, label=label, **style)
+    return list(entries.values())
 
 
 def measured(axes: Axes, series: Series, **style: Any) -> Artist:
