@@ -144,4 +144,6 @@ def _regimes(curve: Columns, right: float) -> list[tuple[float, float, str]]:
     x, regime = (curve[column][curve[X] <= right] for column in (X, "regime"))
     starts = [0, *(np.flatnonzero(regime[1:] != regime[:-1]) + 1)]
     spans = zip(x[starts], [*x[starts[1:]], right], regime[starts], strict=True)
-    return [(low, high, Regime[name].words) for low, high, name in spans if high > low + 0.1]
+    return [
+        (low, high, Regime[name].words) for low, high, name in spans if high - low > 0.02 * right
+    ]

@@ -341,8 +341,8 @@ def angle_axes(panels: Sequence[Axes], span: Sequence[float]) -> None:
 def name_spans(axes: Axes, spans: Sequence[tuple[float, float, str]]) -> None:
     """Names of parts of the x axis above the axes, and lines between them: (start, end, name)."""
     top = axes.secondary_xaxis("top")
-    middles, names = zip(*(((start + end) / 2, name) for start, end, name in spans), strict=True)
-    top.set_xticks(middles, names, fontsize=NOTE)
+    middles = [(start + end) / 2 for start, end, _ in spans]
+    top.set_xticks(middles, [name for *_, name in spans], fontsize=NOTE)
     top.tick_params(length=0)
     for start, _, _ in spans[1:]:
         axes.axvline(start, **GUIDE)
