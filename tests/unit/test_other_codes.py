@@ -1,4 +1,4 @@
-"""LAMMPS and pooltool in data/other_codes: the table, the picture, the report, the script."""
+"""LAMMPS and pooltool in data/other_codes: the table, the picture, the script."""
 
 import csv
 import importlib.util
@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from stronge1994.figures.trade import drawing
-from stronge1994.pages import impact_times
 
 ROOT = Path(__file__).parents[2]
 with open(ROOT / "data/other_codes/impacts.csv", newline="", encoding="utf-8") as _file:
@@ -53,24 +52,6 @@ def test_the_picture_has_every_row_at_its_ratio_times_the_time_of_our_table():
         if (row["restitution [1]"], row["loss"]) == ("0.8", "viscous")
     ]
     assert shown == pytest.approx(np.array(wanted)) and len(wanted) == 11
-
-
-def test_the_report_has_both_codes_beside_our_models():
-    row = {"restitution [1]": "0.8", "loss": "plastic", "max_velocity [mu v2(0)]": "0.1"}
-    ours = [
-        row | {"name": f"{model}, e = 0.8, plastic", "model": model, "time_100 [s]": seconds}
-        for model, seconds in (
-            ("spheres.plastic", "1e-5"),
-            ("continuum.plastic", "1e-3"),
-            ("continuum.viscous", "1e-3"),
-            ("annuli", "1"),
-            ("lumped.hysteretic", ""),
-        )
-    ]
-    found = {one["model"]: one["times_spheres [1]"] for one in impact_times.ratios(ours, ROWS)}
-    assert found.pop("pooltool") and found.pop("LAMMPS mindlin/force, 64 steps")
-    assert found == {"continuum.plastic": "1e+02", "spheres.plastic": "1"}
-    assert impact_times.ratios(ours[1:], ROWS) == impact_times.ratios([], ROWS) == []
 
 
 @pytest.mark.skipif(not all(map(importlib.util.find_spec, CODES)), reason="needs both codes")

@@ -17,7 +17,7 @@ from stronge1994.verdict_tables import verdict_table
 from tests.workflow.project import ROOT
 
 # Not part of a run, but asked for.
-OTHERS = {"make_spheres", "site", "interface"}
+OTHERS = {"site", "interface"}
 
 
 def test_every_file_of_a_run_is_asked_for(first_run):
@@ -176,7 +176,7 @@ def report(first_run, expected, inventory, tmp_path, monkeypatch):
         write_report.write(
             "figures/report.html",
             "results/problems.csv",
-            {name: f"results/{name}.csv" for name in TABLES} | {"impacts": OTHER_CODES},
+            {name: f"results/{name}.csv" for name in TABLES},
             {name: f"results/residuals/{name}.csv" for name in names},
             {name: f"figures/{name}.svg" for name in names},
             [],

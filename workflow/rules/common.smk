@@ -48,7 +48,6 @@ VALUES = {
     "judged": list(JUDGED),
     "scene": list(config["scenes"]),
     "notebook": NOTEBOOKS,
-    "table": ["fine", "coarse"],
 }
 
 
