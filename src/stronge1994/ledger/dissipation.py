@@ -83,7 +83,7 @@ def friction_after_stick_in_groups(impact: Contact) -> tuple[ArrayLike, float]:
     r"""Distance of Eq. 39 from the exact energy lost, over $m_1 v_1(0)^2/2$, after initial stick.
 
     With the leading sign that comes nearer. In the corrected formula the sign is minus, $s g_1$
-    takes the place of $g_1$, and $\mu^2 \zeta^2 \sin^2(\alpha)$ at $t_1$ is added.
+    takes the place of $g_1$, and $\mu^2 \zeta^2\,\sin^2(\alpha)$ at $t_1$ is added.
     """
     half, swing = _normal(impact), np.cos(impact.tangential_frequency * impact.t1)
     lost = impact.printed(dissipation.eq_39_friction, swing=swing)

@@ -194,7 +194,7 @@ def _slips_throughout_from(mass_ratio: float, stiffness_ratio: float, restitutio
 def slip_throughout_limit(place: tuple[tuple[float, float], float]) -> tuple[ArrayLike, float]:
     r"""The printed limit $(1 + e) \beta$ less the one found by bisection of regimes, in $x$.
 
-    Corrected, by Eqs 17 to 20: $\beta + \max(0, e \beta - \zeta^2/e)$.
+    Corrected, by Eqs 17 to 20: $\beta + \mathrm{max}(0, e \beta - \zeta^2/e)$.
     """
     (beta, zeta2), e = place
     exact = _slips_throughout_from(beta, zeta2, e)
