@@ -2,8 +2,7 @@
 
 import re
 
-from stronge1994.figure_table import is_of_paper
-from stronge1994.plan.config import SCENE
+from stronge1994.curve_names import SCENE, is_of_paper
 
 YEAR = re.compile(r"(?<=[a-z])(?=(?:19|20)\d\d$)")
 GREEK = {"mu": "μ", "nu": "ν"}
