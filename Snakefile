@@ -21,9 +21,7 @@ include: "workflow/rules/common.smk"
 localrules:
     all,
     figures,
-    measurements,
     notebooks,
-    sphere_tables,
     draw,
     draw_with_slide,
     judge,
@@ -32,7 +30,6 @@ localrules:
     note,
     trade_tables,
     explorer,
-    start_page,
     interface,
     report,
     site,
@@ -48,25 +45,11 @@ rule figures:
         slides_of(UNTIMED),
 
 
-rule measurements:
-    """Pictures of error against processor time, measured on this machine, without judging."""
-    input:
-        expand("results/curves/{figure}.csv", figure=TIMED),
-        expand("figures/{figure}.{kind}", figure=TIMED, kind=["svg", "png"]),
-        slides_of(TIMED),
-
-
 rule notebooks:
     """The lectures alone: notebooks run from the first cell to the last, as pages."""
     input:
         expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS),
         expand("figures/{notebook}.html", notebook=NOTEBOOKS),
-
-
-rule sphere_tables:
-    """The tables of spheres that the package brings along, made anew."""
-    input:
-        expand("results/spheres/{table}.npz", table=["fine", "coarse"]),
 
 
 include: "workflow/rules/curves.smk"
@@ -79,7 +62,6 @@ include: "workflow/rules/trade.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
-include: "workflow/rules/spheres.smk"
 
 
 # Every rule whose files a run makes: the gate asks for all of them, wanted by others or not.
@@ -95,9 +77,9 @@ MAKERS = [
     rules.scene,
     rules.lecture,
     rules.explorer,
-    rules.start_page,
     rules.report,
 ]
+MADE = expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES) + slides_of(FIGURES)
 
 
 include: "workflow/rules/site.smk"
@@ -110,7 +92,7 @@ for name in JUDGED:
         name:
             name
         input:
-            plan=planned(f"judged_{name}", "gate", "run", "judging", "ledger", "reference_data",
+            plan=planned(f"judged_{name}", "gate", "run", "judging", "verdict_tables", "ledger", "reference_data",
                 settings=lambda _: plan.expected_alone(EXPECTED["comparisons"], config, name)),
             made=files_of_one(name),
         params:
@@ -135,10 +117,9 @@ rule all:
     """
     default_target: True
     input:
-        plan=planned("all", "gate", "run", "judging", "ledger", "reference_data",
+        plan=planned("all", "gate", "run", "judging", "verdict_tables", "ledger", "reference_data",
             settings=lambda _: EXPECTED),
-        made=expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES)
-        + slides_of(FIGURES),
+        made=MADE,
     params:
         plans=plans.digest(PLANNED),
         jobs=PLANNED,
@@ -152,7 +133,7 @@ rule all:
         "workflow/scripts/gate.py"
 
 
-TARGETS = ["all", *JUDGED, "figures", "measurements", "notebooks", "site", "sphere_tables"]
+TARGETS = ["all", *JUDGED, "figures", "notebooks", "site"]
 if workflow.is_main_process:
     logger.addFilter(last_words.Help(TARGETS))
 

@@ -7,16 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from stronge1994 import csv_tables, plan, reference_data, verdict_table
+from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.ledger import entries as ledger_entries
 from stronge1994.ledger import outcome
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.run import gate, record
+from stronge1994.verdict_tables import verdict_table
 from tests.workflow.project import ROOT
 
 # Not part of a run, but asked for.
-OTHERS = {"make_spheres", "site", "interface"}
+OTHERS = {"site", "interface"}
 
 
 def test_every_file_of_a_run_is_asked_for(first_run):

@@ -1,7 +1,7 @@
 rule ledger:
     """Run every entry of the paper's ledger against the paper's model, solved to rounding."""
     input:
-        plan=planned("ledger", "check_ledger", "ledger", "printed", "reference_data", "judging",
+        plan=planned("ledger", "check_ledger", "ledger", "printed", "reference_data", "judging", "verdict_tables",
             settings=lambda _: LEDGER_SCHEMA),
         entries=LEDGER,
         facts="data/stronge1994/source.yaml",  # beside the ledger, which refers to them
@@ -30,12 +30,7 @@ rule ledger_page:
         shared=EVERY_PAGE,
         table="results/ledger.csv",
     output:
-        page=report(
-            "figures/ledger.html",
-            caption="../report/ledger.rst",
-            category="Ledger",
-            labels={"page": "the paper checked"},
-        ),
+        page="figures/ledger.html",
         record="results/records/ledger_page.json",
     log:
         "results/logs/ledger_page.log",

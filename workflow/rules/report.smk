@@ -10,12 +10,6 @@ REPORT_PARTS = [
 ]
 
 
-# Changes to the templates of pdoc.
-INTERFACE_PARTS = [
-    *expand("workflow/report/interface/{part}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"]),
-]
-
-
 REPORT_SETTINGS = {
     "captions": CAPTIONS,
     "config": {
@@ -27,37 +21,12 @@ REPORT_SETTINGS = {
 }
 
 
-rule start_page:
-    """The page to begin with: for whom teaches, verifies, or chooses a model."""
-    input:
-        plan=planned("start_page", "write_start_page", "pages/__init__.py", "pages/templates.py",
-            "plan", "reference_data"),
-        template="workflow/report/index.html",
-        parts="workflow/report/page.css",
-        shared=EVERY_PAGE,
-    output:
-        page=report(
-            "figures/index.html",
-            caption="../report/index.rst",
-            category="Start",
-            labels={"page": "where to begin"},
-        ),
-        record="results/records/start_page.json",
-    log:
-        "results/logs/start_page.log",
-    message:
-        "Writing the page to begin with"
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/write_start_page.py"
-
-
 rule interface:
     """What the functions of the solver take and return, as pages made from their docstrings."""
     input:
-        plan=planned("interface", "write_interface", "pages", "plan", "printed", "reference_data"),
-        parts=INTERFACE_PARTS,
+        plan=planned("interface", "write_interface", "pages/__init__.py", "pages/interface.py",
+            "pages/names.py", "pages/templates.py", "plan", "printed", "reference_data"),
+        parts=expand("workflow/report/interface/{part}", part=["frame.html.jinja2", "custom.css"]),
         shared=EVERY_PAGE,
     output:
         pages=directory("figures/interface"),
@@ -76,7 +45,7 @@ rule report:
     """The run as one page, its sources and settings as another; written after failures, too."""
     input:
         plan=planned("report", "write_report", "pages", "figures/inelastic/trials.py",
-            "figures/shared/drawing", "judging", "ledger", "printed", "plan",
+            "figures/shared/drawing", "judging", "verdict_tables", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
         parts=REPORT_PARTS,
@@ -97,12 +66,7 @@ rule report:
             rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables, rules.note)],
     output:
         page="figures/report.html",
-        sources=report(
-            "figures/sources.html",
-            caption="../report/sources.rst",
-            category="Sources",
-            labels={"page": "sources of data, settings, versions"},
-        ),
+        sources="figures/sources.html",
         tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
         problems="results/problems.csv",
         record="results/records/report.json",

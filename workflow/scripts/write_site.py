@@ -5,13 +5,6 @@ from stronge1994.run import record
 with record.recorded(snakemake):
     from stronge1994.pages import site
 
-    given = snakemake.input
-    site.write(
-        snakemake.output.folder,
-        given.pages,
-        given.notebooks,
-        given.texts,
-        given.readme,
-        given.start,
-    )
-    site.pack(snakemake.output.folder, snakemake.output.archive)
+    given, folder = snakemake.input, snakemake.output.folder
+    site.write(folder, given.pages, given.notebooks, given.texts, given.readme)
+    site.pack(folder, snakemake.output.archive)

@@ -11,12 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from stronge1994 import csv_tables, reference_data, verdict_table
+from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import trials as inelastic
-from stronge1994.figures.shared.drawing.lossy import MODELS
+from stronge1994.figures.shared.drawing.beside import MODELS
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import ledger_page
+from stronge1994.verdict_tables import verdict_table
 
 Numbers = dict[str, float]
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"

@@ -15,15 +15,15 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
-from stronge1994 import csv_tables, figure_table, verdict_table
-from stronge1994.csv_tables import Curves, Row
+from stronge1994 import csv_tables
+from stronge1994.csv_tables import Row
+from stronge1994.curve_names import is_of_paper
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
-from stronge1994.formulas import mathematical, number, plain
+from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
-    headers,
     key_numbers,
     ledger_page,
     names,
@@ -33,6 +33,7 @@ from stronge1994.pages import (
     which_model,
 )
 from stronge1994.run import gate, record
+from stronge1994.verdict_tables import figure_table, verdict_table
 
 MARKS = {
     "wrong": "fails",
@@ -106,17 +107,9 @@ def page(values: TemplateValues, template: str | Path) -> str:
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
-        "comparison_name": names.comparison,
-        "series_name": names.series,
-        "source_name": names.source,
-        "entry_name": names.entry,
-        "number": number,
-        "microseconds": lambda seconds: number(f"{1e6 * float(seconds)}"),
-        "sentence": names.sentence,
-        "title_of": templates.title,
-        "unit": headers.unit,
+        "measured": measured,
     }
-    environment.tests["in_paper"] = figure_table.is_of_paper
+    environment.tests["in_paper"] = is_of_paper
     return environment.get_template(Path(template).name).render(
         values,
         lapsed=outcome.failing(values["ledger"]),
@@ -130,6 +123,13 @@ def page(values: TemplateValues, template: str | Path) -> str:
         verdict_meaning=MEANING,
         entry_of=entry_of,
     )
+
+
+def measured(row: Row) -> Markup:
+    """How large the distance of a row of the verdict table is, its unit as a formula."""
+    value, _, unit = row["stated"].partition(" ")
+    shown = {"stated": f"{value}{names.unit(unit)}", "unit": names.unit(row["unit"]).strip()}
+    return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
 
 
 def bounds(text: str) -> Markup:
@@ -151,10 +151,9 @@ def figure(
 ) -> TemplateValues:
     """Values of the template for one figure."""
     rows = [row for row in verdicts if row["figure"] == name]
-    entries = {c: e for c, e in config["comparisons"].items() if e["figure"] == name}
-    strips = draw_residuals.strips(residuals, entries, {row["comparison"]: row for row in rows})
+    strips = draw_residuals.strips(residuals, {row["comparison"]: row for row in rows})
     return {
-        "title": templates.title(name),
+        "title": names.figure(name),
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
@@ -165,7 +164,7 @@ def figure(
     }
 
 
-def _svg(strips: Mapping[draw_residuals.Strip, Curves]) -> bytes:
+def _svg(strips: Mapping[draw_residuals.Strip, draw_residuals.Points]) -> bytes:
     file = io.BytesIO()
     house_style.save(draw_residuals.draw(strips), file)
     return file.getvalue()
@@ -220,7 +219,7 @@ def write(
     def caption(name: str) -> str:
         return Path(template).with_name(f"{name}.rst").read_text(encoding="utf-8").strip()
 
-    figures = {name: salvage(templates.title(name), None, section, name) for name in svgs}
+    figures = {name: salvage(names.figure(name), None, section, name) for name in svgs}
     answers = salvage("which_model", [], read, paths["which_model"])
     run = run_facts.of_run()
     values = {
