@@ -176,13 +176,6 @@ def test_trials_of_the_pairs(measured, lumped_alone, settings):
     assert gone == pytest.approx(float(pull[soft][0] ** 2))
 
 
-def test_the_trend_of_the_pairs_rests_on_one(measured):
-    slope, sigma = pair_trials.slope(measured)
-    assert slope > 3 * sigma
-    slope, sigma = pair_trials.slope(measured, ["polyurethane"])
-    assert (round(slope, 2), round(sigma, 2)) == (0.70, 0.37)
-
-
 def wrong_repair(power):
     """The model with e^2 zeta^2, with another power of e than the second."""
     original = models.rebound
