@@ -176,13 +176,6 @@ def test_trials_of_the_pairs(measured, lumped_alone, settings):
     assert gone == pytest.approx(float(pull[soft][0] ** 2))
 
 
-def test_the_trend_of_the_pairs_rests_on_one(measured):
-    slope, sigma = pair_trials.slope(measured)
-    assert slope > 3 * sigma
-    slope, sigma = pair_trials.slope(measured, ["polyurethane"])
-    assert (round(slope, 2), round(sigma, 2)) == (0.70, 0.37)
-
-
 @pytest.fixture
 def judge(inventory, settings, tmp_path):
     """Verdicts on the pairs, of some models."""
