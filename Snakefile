@@ -91,7 +91,7 @@ for name in JUDGED:
         name:
             name
         input:
-            plan=planned(f"judged_{name}", "gate", "run", "judging", "ledger", "reference_data",
+            plan=planned(f"judged_{name}", "gate", "run", "judging", "verdict_tables", "ledger", "reference_data",
                 settings=lambda _: plan.expected_alone(EXPECTED["comparisons"], config, name)),
             made=files_of_one(name),
         params:
@@ -116,7 +116,7 @@ rule all:
     """
     default_target: True
     input:
-        plan=planned("all", "gate", "run", "judging", "ledger", "reference_data",
+        plan=planned("all", "gate", "run", "judging", "verdict_tables", "ledger", "reference_data",
             settings=lambda _: EXPECTED),
         made=MADE,
     params:

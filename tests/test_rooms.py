@@ -41,8 +41,7 @@ REPRODUCTION = {
     "__init__": "",
     "one_thread": "",
     "csv_tables": "",
-    "verdict_table": "csv_tables",
-    "figure_table": "csv_tables verdict_table",
+    "verdict_tables": "csv_tables curve_names",
     "curve_names": "",
     "formulas": "",
     "goodness": "ground",
@@ -52,18 +51,18 @@ REPRODUCTION = {
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
     " fit scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
-    " matplotlib",
+    " verdict_tables matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground csv_tables curve_names formulas goodness reference_data verdict_table",
-    "run": "csv_tables verdict_table figure_table ledger matplotlib",
-    "plan": "reference_data",
+    "judging": "ground csv_tables curve_names formulas goodness reference_data verdict_tables",
+    "run": "csv_tables verdict_tables ledger matplotlib",
+    "plan": "reference_data curve_names",
     "pages": "ground bodies export csv_tables reference_data figures formulas goodness judging"
-    " ledger plan run verdict_table figure_table jinja2",
+    " ledger plan run curve_names verdict_tables jinja2",
 }
 # The figures have one folder each, and in it files that solve and files that draw, or that judge
 # what is drawn.
-DRAWING = ("drawing", "draw_", "slide", "trials")
+DRAWING = ("drawing", "draw_", "trials")
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
 # of the reproduction has a door of its own.

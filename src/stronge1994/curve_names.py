@@ -1,4 +1,4 @@
-"""Names of curves, spelled here for the modules that solve, draw and judge them."""
+"""Names of curves, figures and scenes, spelled here for those who solve, draw and judge them."""
 
 from collections.abc import Iterable
 
@@ -7,6 +7,12 @@ AS_PRINTED, NO_SOLUTION = "as printed", "no solution as printed"
 SIGNS = {1: "+", -1: "-"}
 # Beginning of the name of a parameter of which each point of the curve has its own value.
 EACH = "each "
+SCENE = "scene_"  # before the name of a scene, among what is judged
+
+
+def is_of_paper(figure: str) -> bool:
+    """Whether a figure is one of the paper's."""
+    return figure.startswith("fig") and figure[3:].isdigit()
 
 
 def name(symbol: str, value: float) -> str:

@@ -32,7 +32,7 @@ def test_restitutions_differ_in_their_lines_and_none_is_dotted():
 
 def measured_series(y):
     """Two points of a quantity against the angle, with a sigma for each."""
-    values = {"x": np.array([20.0, 40.0]), "y": np.array([0.1, 0.3]), "line": False}
+    values = {"x": np.array([20.0, 40.0]), "y": np.array([0.1, 0.3])}
     return values | {"sigma": (0.4, np.array([0.02, 0.05])), "axes": ("angle [deg]", y)}
 
 

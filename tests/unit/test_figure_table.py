@@ -2,8 +2,9 @@
 
 import pytest
 
-from stronge1994 import figure_table, verdict_table
-from stronge1994.verdict_table import QUESTIONS
+from stronge1994.plan import figures
+from stronge1994.verdict_tables import figure_table, verdict_table
+from stronge1994.verdict_tables.verdict_table import QUESTIONS
 
 SOLVED, PRINTED, OTHERS = QUESTIONS
 SIZES = {
@@ -68,8 +69,9 @@ def test_a_cell_says_the_largest_difference_and_the_distance_of_all_points():
 
 
 def test_figures_of_the_paper_come_first_and_scenes_are_one_row():
-    names = ["scene_a", "yielding", "fig10", "fig9", "scene_b", "fig2"]
-    table = figure_table.of_run([row(SOLVED, "right", figure=name) for name in names])
+    names = sorted(["yielding", "fig10", "fig9", "fig2"], key=figures.place)
+    rows = [row(SOLVED, "right", figure=name) for name in [*names, "scene_a", "scene_b"]]
+    table = figure_table.of_run(rows)
     assert [found.figure for found in table] == ["fig2", "fig9", "fig10", "yielding", "scenes"]
     assert table[-1].solved[0].rows == ["scene_a-rebound", "scene_b-rebound"]
 

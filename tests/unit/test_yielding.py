@@ -16,7 +16,7 @@ from stronge1994.figures.shared.curves import solving
 from stronge1994.figures.yielding import curves as yielding
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
-from stronge1994.verdict_table import FAILS
+from stronge1994.verdict_tables.verdict_table import FAILS
 
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "data/finite_elements"

@@ -12,9 +12,7 @@ import pytest
 from planarimpact import continuum, lumped
 from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.figures.fig5 import curves as fig5
-from stronge1994.figures.fig5 import drawing as draw_fig5
 from stronge1994.figures.fig8 import curves as fig8
-from stronge1994.figures.fig8 import drawing as draw_fig8
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
 
@@ -210,26 +208,11 @@ def test_a_regime_chooses_its_points(regime, points, judged):
 
 
 @pytest.mark.parametrize(
-    ("module", "name"),
-    [(draw_fig5, RUBBER), *((draw_fig8, name) for name in list(AWAITED)[1:])],
-)
-def test_a_point_just_outside_the_axes_is_drawn(module, name, inventory, curves):
-    figure = module.__name__.split(".")[-2]
-    points = {
-        name: {"x": np.array([-0.05, 1.0]), "y": np.array([0.0, 0.1]), "sigma": (0.1, 0.1),
-               "line": False, "parameters": {}}
-    }  # fmt: skip
-    settings = plan.settings(CONFIG, inventory, figure)
-    drawn = module.draw(csv_tables.read(curves / f"{figure}.csv"), settings, points)
-    assert drawn.axes[0].get_xlim()[0] == -0.05
-
-
-@pytest.mark.parametrize(
     ("change", "words"),
     [
         ({"allowance": {"x": 0.3}}, "allowance: 'y' is a required property"),
         ({"allowance": {"x": 0.3, "y": -1}}, "allowance.y: -1 is less than the minimum of 0"),
-        ({"metric": "balance", "columns": ["a", "b"]}, "metric: 'balance' is not one of"),
+        ({"metric": "small", "columns": ["a"]}, "metric: 'small' is not one of"),
     ],
 )
 def test_an_allowance_that_means_nothing_is_refused(change, words):

@@ -9,11 +9,13 @@ import pytest
 
 from planarimpact import lumped, models
 from stronge1994 import plan, reference_data
+from stronge1994.curve_names import SCENE
 from stronge1994.figures.inelastic import curves as inelastic
 from stronge1994.figures.shared.curves import solving
-from stronge1994.judging import compare, judged_tables, points
+from stronge1994.judging import compare, points
+from stronge1994.judging import rows as judging_rows
 from stronge1994.plan import config as configuration
-from stronge1994.verdict_table import FAILS
+from stronge1994.verdict_tables.verdict_table import FAILS
 
 ROOT = Path(__file__).parents[2]
 SCHEMAS = ROOT / "workflow/schemas"
@@ -85,8 +87,8 @@ def _columns(name, curves):
 
 def _inputs(name):
     """Columns that are copies of what a scene was given."""
-    if name.startswith(configuration.SCENE):
-        table = ROOT / f"data/scenes/{name.removeprefix(configuration.SCENE)}.csv"
+    if name.startswith(SCENE):
+        table = ROOT / f"data/scenes/{name.removeprefix(SCENE)}.csv"
         return {"row [1]", *table.read_text(encoding="utf-8").splitlines()[0].split(",")}
     return set()
 
@@ -95,11 +97,11 @@ def _inputs(name):
 @pytest.mark.parametrize("factor", [1.3, pytest.param(-1.0, marks=pytest.mark.long)])
 def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
     path = tables / configuration.table_of(name)
-    curves, missed = judged_tables.read(path), []
+    curves, missed = judging_rows.read(path), []
     monkeypatch.setattr(reference_data, "arrays", _read_once)
     for curve, column in _columns(name, curves):
         wrong = curves | {curve: curves[curve] | {column: factor * curves[curve][column]}}
-        monkeypatch.setattr(judged_tables, "read", lambda _, wrong=wrong: wrong)
+        monkeypatch.setattr(judging_rows, "read", lambda _, wrong=wrong: wrong)
         if not _fails(name, path, curve=curve):
             missed.append((curve, column))
     assert missed == []
@@ -115,11 +117,11 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, tables, monkeypatch):
 )
 def test_a_fault_between_the_points_of_reference_is_seen(name, curve, rows, tables, monkeypatch):
     path, column = tables / configuration.table_of(name), "velocity [mu v2(0)]"
-    curves = judged_tables.read(path)
+    curves = judging_rows.read(path)
     velocity = curves[curve][column].copy()
     velocity[rows] = -velocity[rows] - 0.1
     wrong = curves | {curve: curves[curve] | {column: velocity}}
-    monkeypatch.setattr(judged_tables, "read", lambda _: wrong)
+    monkeypatch.setattr(judging_rows, "read", lambda _: wrong)
     assert _fails(name, path, only=f"{name}-contraction")
 
 
@@ -135,8 +137,8 @@ def test_a_wrong_repair_of_the_lumped_model_is_seen(power, tables, monkeypatch):
         "rebound",
         lambda _, x, beta, zeta2, e: lumped.rebound(x, beta, np.power(e, power) * zeta2, e),
     )
-    wrong = judged_tables.read(path) | inelastic.curves(**settings)
-    monkeypatch.setattr(judged_tables, "read", lambda _: wrong)
+    wrong = judging_rows.read(path) | inelastic.curves(**settings)
+    monkeypatch.setattr(judging_rows, "read", lambda _: wrong)
     for name in (f"{model}-pairs", "pairs", "rebound", "tangential-restitution"):
         assert _fails("inelastic", path, only=f"inelastic-{name}"), name
 

@@ -11,9 +11,10 @@ import pytest
 from planarimpact import lumped, noncollinear
 from stronge1994 import csv_tables, curve_names, plan
 from stronge1994.figures.shared.curves import solving
-from stronge1994.judging import compare, judged_tables
+from stronge1994.judging import compare
+from stronge1994.judging import rows as judging_rows
 from stronge1994.plan import config as configuration
-from stronge1994.verdict_table import FAILS
+from stronge1994.verdict_tables.verdict_table import FAILS
 
 ROOT = Path(__file__).parents[2]
 
@@ -119,7 +120,7 @@ def diverging(first_run, config, inventory, monkeypatch):
         curves = READ(first_run[0] / f"results/curves/{figure}.csv")
         own = [n for n in curves if not (curve_names.is_shifted(n) or curve_names.is_printed(n))]
         solved = curves | dict(zip(own, module.curves(**wrong).values(), strict=True))
-        monkeypatch.setattr(judged_tables, "read", lambda _: solved)
+        monkeypatch.setattr(judging_rows, "read", lambda _: solved)
         entries = {name: config["comparisons"][name] for name in asked}
         references = plan.references(config, inventory, figure)
         rows = compare(figure, entries, references, "", config["significance"])

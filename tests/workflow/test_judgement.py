@@ -7,12 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from stronge1994 import csv_tables, plan, reference_data, verdict_table
+from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.ledger import entries as ledger_entries
 from stronge1994.ledger import outcome
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.run import gate, record
+from stronge1994.verdict_tables import verdict_table
 from tests.workflow.project import ROOT
 
 # Not part of a run, but asked for.
@@ -142,7 +143,7 @@ def test_entries_that_do_not_hold_do_not_pass(expected, holds):
     assert len(found) == 1 and "eq-41" in found[0]
 
 
-TABLES = ("verdicts", "ledger", "trade", "which_model", "key_numbers")
+TABLES = ("verdicts", "ledger", "which_model", "key_numbers")
 
 
 @pytest.fixture
@@ -203,7 +204,7 @@ DAMAGE = [
     ),
     ("results/ledger.csv", "", "results/ledger.csv"),
     ("results/ledger.csv", ",".join(outcome.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
-    ("results/trade.csv", "a,b\n1\n", "results/trade.csv, line 2"),
+    ("results/which_model.csv", "a,b\n1\n", "results/which_model.csv, line 2"),
     ("results/residuals/fig5.csv", "comparison\nfig5-lumped-exact\n", "Fig. 5: "),
     ("results/residuals/fig5.csv", None, "residuals/fig5.csv"),
     ("figures/fig6.svg", None, "fig6.svg"),

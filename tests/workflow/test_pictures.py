@@ -11,8 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from stronge1994 import csv_tables
-from stronge1994.curve_names import is_shifted
-from stronge1994.figure_table import is_of_paper
+from stronge1994.curve_names import is_of_paper, is_shifted
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.plan import figures
 from stronge1994.run import plans
@@ -21,7 +20,7 @@ from stronge1994.run import plans
 NOT_DRAWN = {
     "fig5": "finite elements",
     "fig9": "no tangential compliance, (mu = 0.1|.*, e = 0.5)",
-    "rubber_sphere": "impacts|stated",
+    "rubber_sphere": "impacts|stated|rms",
     "stability": "contacts",
     "trade": "steps|e = 0.8",
     "yielding": "continuum, nu",

@@ -8,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from stronge1994 import csv_tables, figure_table
+from stronge1994 import csv_tables
+from stronge1994.curve_names import is_of_paper
 from stronge1994.plan import readmes
+from stronge1994.verdict_tables import figure_table
 
 ROOT = Path(__file__).parents[2]
 PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md"))]
@@ -56,7 +58,7 @@ def test_commands_run_as_printed(somewhere):
 
 def test_the_main_readme_has_the_table_of_the_run(first_run):
     rows = csv_tables.read_rows(first_run[0] / "results/verdicts.csv")
-    table = [row for row in figure_table.of_run(rows) if figure_table.is_of_paper(row.figure)]
+    table = [row for row in figure_table.of_run(rows) if is_of_paper(row.figure)]
     assert f"```text\n{figure_table.text(table)}\n```" in MAIN
 
 

@@ -16,13 +16,14 @@ import pytest
 import yaml
 
 import planarimpact
-from stronge1994 import formulas, reference_data, verdict_table
+from stronge1994 import formulas, reference_data
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.ledger import outcome
 from stronge1994.pages import ledger_page, names
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
+from stronge1994.verdict_tables import verdict_table
 from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
@@ -276,7 +277,6 @@ def doctored(*lapsed):
         },
         "captions": dict.fromkeys(write_report.SECTIONS, "Words."),
         "cases": [],
-        "times": write_report.NO_TIMES,
         "n": {},
         "significance": CONFIG["significance"],
         "run": {"date": "Today", "commit": "abc"},
@@ -297,7 +297,7 @@ def test_a_failed_run_looks_like_one():
     table = page[page.index("<details open><summary>2 comparisons:") :].split("</table>")[0]
     first = table.split("<tr")[2]
     assert 'id="fig6-rebound" class="wrong"' in first and 'class="mark fails">wrong<' in first
-    assert "rms 7, largest 9" in first
+    assert "rms 7, max 9 sigma" in first
     assert "No curves: ArithmeticError: &lt;oh&gt;" in page
 
 
@@ -309,40 +309,28 @@ def test_a_run_with_a_lapsed_entry_looks_like_one():
     assert 'href="ledger.html#eq-1"' in page
 
 
-def test_strips_show_points_bounds_and_verdicts():
-    strip = {"metric": "distance", "curve": "lumped", "reference": "a/b"}
-    comparisons = {
-        "low": strip | {"documented": {"entry": "known"}, "regression": {"rms": [2.0, 4.0]}},
-        "high": strip,
-        "corner": {"metric": "vertices", "reference": "a/c"},
-        "peak": {"metric": "landmark", "reference": "a/d"},
+def test_strips_show_points_by_their_verdicts():
+    others = {"question": "beside others", "found": "", "curve": "lumped", "reference": "a/b"}
+    verdicts = {
+        "low": others | {"verdict": "diverges"},
+        "high": others | {"verdict": "agrees"},
+        "corner": others | {"verdict": "wrong", "question": "solved right", "curve": ""},
+        "peak": others | {"verdict": "agrees", "found": "30", "reference": "a/d"},
+        "right": others | {"verdict": "right", "question": "solved right", "reference": "a/e"},
+        "printed": others | {"verdict": "explained difference", "question": "as printed"},
     }
-    points = {"low": [-1, -3], "high": [2, 0], "corner": [0.5], "peak": [0.1]}
+    points = {"low": [-1, -3], "high": [2, 0], "corner": [7], "peak": [1], "right": [1]}
     residuals = [
         {"comparison": name, "quantity": "x [1]", "at": f"{at}", "distance [sigma]": f"{far}"}
-        for name, distances in points.items()
+        for name, distances in (points | {"printed": [9]}).items()
         for at, far in enumerate(distances)
     ]
-    verdicts = dict.fromkeys(("corner", "peak"), {"verdict": "agrees", "p": ""})
-    verdicts |= {"low": {"verdict": "diverges", "p": ""}, "high": {"verdict": "agrees", "p": "0.5"}}
-    first, second = draw_residuals.draw(
-        draw_residuals.strips(residuals, comparisons, verdicts)
-    ).axes
+    first, second = draw_residuals.draw(draw_residuals.strips(residuals, verdicts)).axes
     drawn = {line.get_marker(): line for line in first.lines if line.get_linestyle() == "None"}
-    assert drawn["x"].get_ydata().tolist() == [-1, -3]
-    assert drawn["o"].get_ydata().tolist() == [2, 0]
-    rms = {round(line.get_ydata()[0] ** 2) for line in first.lines if line.get_linestyle() == "-"}
-    assert rms >= {5}
-    # Chi-squared bounds the points of `high` together, and none of them alone.
-    assert {area.get_datalim(first.transData).y1 for area in first.collections} == {4.0, -2.0}
-    assert second.lines[0].get_ydata().tolist() == [0.5]
-    assert {area.get_datalim(second.transData).y1 for area in second.collections} == {1.0}
-    assert not draw_residuals.strips(residuals[-1:], comparisons, verdicts)
-    # Points that agree so closely lie on the line at zero; those that diverge are always shown.
-    close = [row | {"distance [sigma]": "0.009"} for row in residuals if row["comparison"] == "low"]
-    assert draw_residuals.strips(close, comparisons, verdicts)
-    verdicts["low"] = {"verdict": "agrees", "p": ""}
-    assert not draw_residuals.strips(close, comparisons, verdicts)
+    assert {mark: line.get_ydata().tolist() for mark, line in drawn.items()} == {
+        "x": [-1, -3], "o": [2, 0],
+    }  # fmt: skip
+    assert second.lines[0].get_ydata().tolist() == [7]
 
 
 def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(interface):

@@ -15,7 +15,7 @@ from stronge1994 import csv_tables
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
 from stronge1994.run import last_words, record
-from stronge1994.verdict_table import FAILS, QUESTIONS
+from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
 from tests.workflow.project import ROOT, copy_of
 from tests.workflow.test_awaited_series import JOHNSON, RUBBER, filled, made_up, written
 from tests.workflow.test_troubleshooting import explained
@@ -40,12 +40,10 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
         ):
             assert (project / path).stat().st_size > 100
         assert (project / f"results/records/draw_{figure}.json").exists()
-    folders = figures.FOLDER.glob("*/slide.py")
-    slides = {
-        f"{path.parent.name}_{ground}.png" for path in folders for ground in ("light", "dark")
-    }
+    named = figures.with_trait("slide")
+    slides = {f"{figure}_{ground}.png" for figure in named for ground in ("light", "dark")}
     assert slides == {path.name for path in (project / "figures/slides").iterdir()}
-    for table in ("trade", "which_model", "stability"):
+    for table in ("trade", "which_model"):
         assert (project / f"results/{table}.csv").stat().st_size > 100
     found = verdicts(project)
     assert not set(found.values()) & set(FAILS)
@@ -104,10 +102,9 @@ def test_dry_run_is_clean(fresh):
     result = fresh.run("--dry-run", "--quiet", "host")
     assert result.returncode == 0
     assert "warning" not in result.stdout.lower()
-    slides = len(list(figures.FOLDER.glob("*/slide.py")))
+    slides = len(figures.with_trait("slide"))
     for rule, number in (("draw", len(FIGURES) - slides), ("draw_with_slide", slides)):
         assert re.search(rf"^{rule} +{number}$", result.stdout, flags=re.M)
-    assert "peers" not in result.stdout, "they are for those who ask"
 
 
 def test_every_rule_has_what_every_rule_needs():

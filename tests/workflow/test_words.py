@@ -6,8 +6,9 @@ import pytest
 from snakemake.exceptions import LockException, WorkflowError, print_exception
 from snakemake.logging import logger
 
-from stronge1994 import csv_tables, verdict_table
+from stronge1994 import csv_tables
 from stronge1994.run import gate, last_words, plans, record
+from stronge1994.verdict_tables import verdict_table
 
 VERDICT = {
     **dict.fromkeys(verdict_table.COLUMNS, ""),

@@ -1,5 +1,5 @@
 # Check config and data before any work, and plan every job.
-from stronge1994.figure_table import is_of_paper
+from stronge1994.curve_names import SCENE, is_of_paper
 from stronge1994.formulas import plain
 from stronge1994.ledger import entries
 
@@ -29,8 +29,7 @@ except (reference_data.SourceError, ConfigError) as error:
 
 TIMED = figures.with_trait("timed")
 UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
-# Figures with a slide.
-SLIDES = [figure for figure in FIGURES if (figures.FOLDER / figure / "slide.py").is_file()]
+SLIDES = figures.with_trait("slide")
 CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}
 
 
@@ -90,7 +89,8 @@ def of_figure(part, plans=FIGURES, wildcard="figure"):
 
 def of_drawing(figure):
     """Settings of the plan of a drawing."""
-    return {key: FIGURES[figure][key] for key in ("settings", "overlays")}
+    own = {key: FIGURES[figure][key] for key in ("settings", "overlays")}
+    return own | {"slide": figures.stated()[figure].get("slide")}
 
 
 def slides_of(figures):
@@ -103,7 +103,7 @@ def files_of_one(name):
     """Files of the jobs that make, draw and judge one figure or scene."""
     makers = [rules.judge, *([rules.curves, rules.draw] if name in FIGURES else [rules.scene])]
     made = [path for maker in makers for path in maker.output]
-    chosen = dict.fromkeys(["figure", "judged"], name) | {"scene": name.removeprefix(configuration.SCENE)}
+    chosen = dict.fromkeys(["figure", "judged"], name) | {"scene": name.removeprefix(SCENE)}
     return expand(made, **chosen) + slides_of([name])
 
 

@@ -9,7 +9,7 @@ rule explorer:
     """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
         plan=planned("explorer", "write_explorer", "explorer", "pages/__init__.py",
-            "pages/templates.py", "plan", "reference_data",
+            "pages/names.py", "pages/templates.py", "plan", "reference_data",
             settings=lambda _: plan.settings_of_explorer(config)),
         sources=expand("workflow/explorer/{file}", file=EXPLORER_PARTS),
         start="workflow/report/index.html",

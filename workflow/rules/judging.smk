@@ -1,7 +1,7 @@
 rule judge:
     """Compare a figure's curves or a scene with reference data."""
     input:
-        plan=planned("judge_{judged}", "judge", "judging", "reference_data",
+        plan=planned("judge_{judged}", "judge", "judging", "verdict_tables", "reference_data",
             settings=lambda name: JUDGED[name]["settings"],
             reads=lambda name: JUDGED[name]["series"]),
         table=of_figure("table", JUDGED, "judged"),
@@ -22,9 +22,9 @@ rule judge:
 
 
 rule gather:
-    """One table of all verdicts, worst first."""
+    """One table of all verdicts."""
     input:
-        plan=planned("gather", "gather"),
+        plan=planned("gather", "gather", "verdict_tables"),
         verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
     output:
         verdicts="results/verdicts.csv",

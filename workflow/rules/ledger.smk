@@ -1,7 +1,7 @@
 rule ledger:
     """Run every entry of the paper's ledger against the paper's model, solved to rounding."""
     input:
-        plan=planned("ledger", "check_ledger", "ledger", "printed", "reference_data", "judging",
+        plan=planned("ledger", "check_ledger", "ledger", "printed", "reference_data", "judging", "verdict_tables",
             settings=lambda _: LEDGER_SCHEMA),
         entries=LEDGER,
         facts="data/stronge1994/source.yaml",  # beside the ledger, which refers to them

@@ -14,7 +14,7 @@ rule note:
     input:
         plan=planned("note", "write_note", "pages", "figures/inelastic/trials.py",
             "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
-            "judging", settings=lambda _: MEASURED,
+            "judging", "verdict_tables", settings=lambda _: MEASURED,
             reads=lambda _: [series["path"] for series in MEASURED.values()]),
         template="workflow/report/note.html",
         parts=expand("workflow/report/{part}",

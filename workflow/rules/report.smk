@@ -25,7 +25,7 @@ rule report:
     """The run as one page, its sources and settings as another; written after failures, too."""
     input:
         plan=planned("report", "write_report", "pages", "figures/inelastic/trials.py",
-            "figures/shared/drawing", "judging", "ledger", "printed", "plan",
+            "figures/shared/drawing", "judging", "verdict_tables", "ledger", "printed", "plan",
             "reference_data", "run", settings=lambda _: REPORT_SETTINGS),
         template="workflow/report/report.html",
         parts=REPORT_PARTS,
@@ -35,7 +35,7 @@ rule report:
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
         numbers=rules.note.output.numbers,
-        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers],
+        answers=rules.trade_tables.output.answers,
         linked=[
             "results/verdicts.csv",
             "results/trade.csv",
@@ -43,8 +43,7 @@ rule report:
             *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
         ],
         records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw,
-            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables,
-            rules.note)],
+            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables, rules.note)],
     output:
         page="figures/report.html",
         sources="figures/sources.html",

@@ -4,7 +4,7 @@ rule site:
     """All pages and the interface of the solver in one folder and as a zip file, for a web server or a stick."""
     input:
         plan=planned("site", "write_site", "pages/__init__.py", "pages/interface.py",
-            "pages/run_facts.py", "pages/site.py", "pages/templates.py", "plan", "printed",
+            "pages/names.py", "pages/run_facts.py", "pages/site.py", "pages/templates.py", "plan", "printed",
             "reference_data"),
         # Pages and pictures of a whole run.
         pages=[path for path in MADE if path.startswith("figures/")],

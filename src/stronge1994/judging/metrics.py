@@ -11,12 +11,12 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Booleans
+from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names, reference_data
 from stronge1994.csv_tables import Column, Columns, Curves
 from stronge1994.judging import distances, landmarks
 from stronge1994.judging.distances import Residuals
-from stronge1994.judging.points import Entry, Reference, points, sigma
+from stronge1994.judging.points import Entry, Reference, points, rows_of, sigma
 
 # Two ways to compute one energy agree to this; see the reason of the comparison.
 BALANCE_SIGMA = 1e-12
@@ -75,7 +75,7 @@ def _from_curve(
     for name in dict.fromkeys(owners.tolist()):
         for axis in reference_data.ordinates(reference):
             y = reference_data.column_name(axis)
-            chosen = _rows(series, (owners == name) & ~np.isnan(series[y]))
+            chosen = rows_of(series, (owners == name) & ~np.isnan(series[y]))
             if len(chosen[y]):
                 polyline = _columns_of(curves, name, x, y)
                 scale = sigma(entry, (reference["x"], axis), chosen)
@@ -98,7 +98,7 @@ def _from_vertices(
     columns: list[str] = []
     for axis in reference_data.ordinates(reference):
         y = reference_data.column_name(axis)
-        chosen = _rows(series, ~np.isnan(series[y]))
+        chosen = rows_of(series, ~np.isnan(series[y]))
         if len(chosen[y]):
             holders = [own for own in named if {y, *names} <= set(own)]
             if not holders:
@@ -114,10 +114,6 @@ def _from_vertices(
             parts.append(distances.vertex_residuals(points_there, vertices, scale))
             columns += [f"{y} of {label}" if label else y for label in labels]
     return _joined(parts), columns
-
-
-def _rows(series: Columns, chosen: Booleans) -> Columns:
-    return {column: values[chosen] for column, values in series.items()}
 
 
 def _joined(parts: Iterable[Residuals]) -> Residuals:
@@ -147,20 +143,12 @@ def _of_all_curves(entry: Entry, curves: Curves) -> tuple[str, Array, Array]:
     First come name and values of the first column of numbers, which says where the points lie.
     """
     names = entry["columns"]
-    holders = [
-        columns
-        for columns in _selected_curves(entry, curves).values()
-        if all(name in columns for name in names)
-    ]
+    holders = [own for own in _selected_curves(entry, curves).values() if {*names} <= set(own)]
     if not holders:
         raise ValueError(f"no curve has the columns {names}")
-    places = [
-        next(name for name, values in columns.items() if values.dtype.kind == "f")
-        for columns in holders
-    ]
-    x = np.concatenate([columns[name] for columns, name in zip(holders, places, strict=True)])
-    values = [np.concatenate([columns[name] for columns in holders]) for name in names]
-    return places[0], x, np.array(values)
+    first = next(name for name, values in holders[0].items() if values.dtype.kind == "f")
+    x, *values = (np.concatenate([own[name] for own in holders]) for name in (first, *names))
+    return first, x, np.array(values)
 
 
 def _small(entry: Entry, curves: Curves) -> Measured:

@@ -5,11 +5,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.arrays import Array, ArrayLike, Booleans
 from stronge1994 import reference_data
 from stronge1994.csv_tables import Columns
 from stronge1994.curve_names import AS_PRINTED
-from stronge1994.verdict_table import QUESTIONS
+from stronge1994.verdict_tables.verdict_table import QUESTIONS
 
 # A comparison of the config, and what it names: a series or a fact of source.yaml, with the
 # parameters of its source. What a law is compared with is empty.
@@ -66,6 +66,11 @@ def points(entry: Entry, reference: Reference) -> Columns:
         chosen &= series["curve"] == entry["curve"]
     if not chosen.any():
         raise ValueError("the reference has no such points")
+    return rows_of(series, chosen)
+
+
+def rows_of(series: Columns, chosen: Booleans) -> Columns:
+    """The chosen rows of a series."""
     return {column: values[chosen] for column, values in series.items()}
 
 

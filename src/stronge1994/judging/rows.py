@@ -14,9 +14,16 @@ from stronge1994.csv_tables import Curves
 from stronge1994.formulas import plain
 from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import Entry, Reference, is_published, kind, question, sigma
-from stronge1994.judging.verdicts import Verdict, chi_squared_of, failed, judge
-from stronge1994.verdict_table import COLUMNS, FAILS, LEDGER, QUESTIONS
+from stronge1994.judging.points import Entry, Reference, is_published, kind, question
+from stronge1994.judging.verdicts import chi_squared_of, judge
+from stronge1994.verdict_tables.verdict_table import (
+    COLUMNS,
+    FAILED,
+    FAILS,
+    LEDGER,
+    QUESTIONS,
+    Verdict,
+)
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
 # The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.
@@ -63,7 +70,7 @@ def compare(
             cells["residuals"] = [[title, measured.quantity, *point] for point in points]
             note = _note(entry, measured, verdict)
         except Exception as error:
-            verdict, note = failed(cells["question"]), f"{error}"
+            verdict, note = FAILED[cells["question"]], f"{error}"
         rows.append(_row(name, title, verdict, note=note, **cells))
     return rows
 
@@ -146,17 +153,11 @@ def _allowed(entry: Entry, reference: Reference, significance: float) -> str:
     criterion = f"p > {significance:g}"
     if "allowance" not in entry:
         return criterion
-    axes = reference["x"], reference["y"]
-    if any(isinstance(axis["sigma"], str) for axis in axes):
-        sizes = entry["allowance"]["x"], entry["allowance"]["y"]
-        words = "allowance for the model beside the sigma of each point: {}"
-    else:
-        sizes, words = sigma(entry, axes, {}), "1 is {}: allowance for the model and sigma together"
-    unit = ", ".join(
-        f"{axis['column']} {size:.3g} {axis['unit']}"
-        for axis, size in zip(axes, sizes, strict=True)
+    sizes = (
+        f"{reference[key]['column']} {size:g} {reference[key]['unit']}"
+        for key, size in entry["allowance"].items()
     )
-    return f"{criterion}; {words.format(unit)}".replace("_", " ")
+    return f"{criterion}; the model may be off by {', '.join(sizes)}".replace("_", " ")
 
 
 def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:

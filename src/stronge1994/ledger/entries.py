@@ -2,16 +2,15 @@
 
 import re
 import string
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import ledger, reference_data
-from stronge1994.ledger.finding import MODELS, ROUNDED
+from stronge1994.ledger.finding import MODELS
 
 Entry: TypeAlias = dict[str, Any]
 
-KINDS = ({"at_most"}, {"at_least"}, {"value", "rounding"}, {"fact"})
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
 
 
@@ -20,7 +19,8 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
 
     Each has its `kind` (equation or sentence). A wrong one has also `because`, the text of its
     cause. A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance. A
-    `SourceError` names file, field, value and what is allowed.
+    `SourceError` names file, field and value. What contradicts itself otherwise, such as bounds
+    in the wrong order, no longer holds when it is run.
     """
     read = reference_data.load_yaml(path)
     reference_data.refuse_invalid(read, schema, path)
@@ -31,12 +31,7 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
             where = f"{path}: {kind}.{name}"
             if name in entries:
                 raise reference_data.SourceError(f"{where}: the name is taken by an equation")
-            _refuse_contradiction(where, entry, "", [entry.get("between", (0, 0))])
-            if "in_nature" in entry:
-                claim, of_claim = entry["in_nature"], f"{where}.in_nature"
-                bounds = claim.get("between", {}).values()
-                _refuse_contradiction(of_claim, claim, "nature.", bounds)
-                _refuse_unmeasured(of_claim, claim["says"])
+            _refuse_unknown_checks(where, entry)
             entries[name] = {"kind": kind[:-1], **_with_fact(where, entry, facts)}
     _explain(path, entries, read["causes"])
     for name, entry in entries.items():
@@ -83,34 +78,20 @@ def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, s
         raise reference_data.SourceError(f"{path}: causes.{cause}: no entry has this cause")
 
 
-def _refuse_contradiction(
-    where: str, judged: Entry, module: str, bounds: Iterable[Sequence[float]]
-) -> None:
-    """Refuse an entry, or its claim in nature, whose fields do not go together."""
-    problem, confirms = None, judged.get("confirms", {"at_most": 0})
-    if "check" in judged and module + judged["check"] not in ledger.checks():
-        problem = f".check: '{module}{judged['check']}' is no function of stronge1994.ledger"
-    elif set(confirms) not in KINDS:
-        problem = (
-            f".confirms = {confirms}: allowed are at_most, or at_least, or value with rounding, or "
-            "fact"
-        )
-    elif judged["verdict"] == ROUNDED and not ({"value", "fact"} & set(confirms)):
-        problem = f".confirms = {confirms}: rounding is that of a `value`"
-    for low, high in bounds:
-        if low > high:
-            problem = f".between = [{low}, {high}]: the first number must be the smaller"
-    if problem:
-        raise reference_data.SourceError(where + problem)
-
-
-def _refuse_unmeasured(where: str, text: str) -> None:
-    for name, model in numbers_in(text):
-        if f"nature.{name}" not in ledger.checks() or model not in MODELS:
-            raise reference_data.SourceError(
-                f"{where}.says: '{name}.{model}' is no check of stronge1994.ledger.nature with a "
-                "model"
-            )
+def _refuse_unknown_checks(where: str, entry: Entry) -> None:
+    claim = entry.get("in_nature", {})
+    asked = {
+        ".check": [entry["check"]] if "check" in entry else [],
+        ".in_nature.check": [f"nature.{claim['check']}"] if "check" in claim else [],
+        ".in_nature.says": [".".join(("nature", *n)) for n in numbers_in(claim.get("says", ""))],
+    }
+    known = {*ledger.checks(), *(f"{name}.{m}" for name in ledger.checks() for m in MODELS)}
+    for field, names in asked.items():
+        for name in names:
+            if name not in known:
+                raise reference_data.SourceError(
+                    f"{where}{field}: '{name}' is no function of stronge1994.ledger"
+                )
 
 
 def numbers_in(text: str) -> list[tuple[str, str]]:

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from stronge1994 import csv_tables, figure_table, verdict_table
+from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
-from stronge1994.formulas import mathematical, number
-from stronge1994.pages import headers, key_numbers, names, templates
+from stronge1994.curve_names import is_of_paper
+from stronge1994.pages import key_numbers, templates
+from stronge1994.verdict_tables import figure_table, verdict_table
 
 # Models below e = 1, in the order of the note.
 MODELS = (
@@ -51,23 +52,11 @@ def page(
 ) -> str:
     """The note as a page, from key numbers, rows of verdicts, and SVG by their figures."""
     environment = templates.environment(Path(template).parent)
-    environment.filters |= {
-        "probability": probability,
-        "count": count,
-        "entry_name": names.entry,
-        "maths": mathematical,
-        "number": number,
-        "sentence": names.sentence,
-        "source_name": names.source,
-        "title_of": templates.title,
-        "unit": headers.unit,
-    }
+    environment.filters |= {"probability": probability, "count": count}
     return environment.get_template(Path(template).name).render(
         n=numbers,
         models=MODELS,
-        figures=[
-            row for row in figure_table.of_run(verdicts) if figure_table.is_of_paper(row.figure)
-        ],
+        figures=[row for row in figure_table.of_run(verdicts) if is_of_paper(row.figure)],
         pictures={name: templates.embedded(svg) for name, svg in pictures.items()},
     )
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
+from stronge1994.curve_names import SCENE
 from stronge1994.plan import figures
 from stronge1994.reference_data import strict_yaml
 
@@ -16,7 +17,6 @@ FILE = "workflow/config.yaml"  # what a user edits
 SHARED = ("mass_ratio", "stiffness_ratio")  # groups that figures share
 # Largest allowance for a model, as a share of the range of its axis.
 LARGEST_ALLOWANCE = 0.02
-SCENE = "scene_"  # before the name of a scene, among what is judged
 # Reason for the tolerance of the comparison of a scene.
 OF_SCENES = (
     "every row against a second code of the continuum of its loss, with the mechanics of rigid "
@@ -160,8 +160,8 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
         small, large = sorted((abs(low), abs(high)))
         if not (low * high > 0 and large < 2 * small):
             raise ConfigError(
-                f"{where}.regression.{key} = {[low, high]}: both have one sign, and neither is twice "
-                "the other or more: else the difference could double unnoticed"
+                f"{where}.regression.{key} = {[low, high]}: both have one sign, and neither is "
+                "twice the other or more: else the difference could double unnoticed"
             )
     if metric not in ("distance", "vertices", "landmark"):
         return

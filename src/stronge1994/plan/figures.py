@@ -23,7 +23,7 @@ def stated() -> dict[str, Stated]:
     # A folder that git has emptied may still hold bytecode, in a folder of its own.
     names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
     contents = {}
-    for name in sorted(names - {SHARED, "__pycache__"}, key=_place):
+    for name in sorted(names - {SHARED, "__pycache__"}, key=place):
         path = _file(name)
         if not re.fullmatch("[a-z][a-z0-9_]*", name):
             raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
@@ -51,7 +51,8 @@ def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str) -> None:
             raise reference_data.SourceError(f"{where}.{key}.allowed: {problem}")
 
 
-def _place(name: str) -> tuple[bool, int, str]:
+def place(name: str) -> tuple[bool, int, str]:
+    """Place of a figure among others: those of the paper first, by number."""
     number = re.fullmatch(r"fig(\d+)", name)
     return not number, int(number[1]) if number else 0, name
 

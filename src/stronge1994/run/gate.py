@@ -3,9 +3,10 @@
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 
-from stronge1994 import csv_tables, verdict_table
+from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
 from stronge1994.run import record
+from stronge1994.verdict_tables import verdict_table
 
 TABLES = ("results/verdicts.csv", "results/ledger.csv")
 PROBLEMS, REPORT = "results/problems.csv", "figures/report.html"

@@ -6,13 +6,14 @@ import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from stronge1994 import csv_tables, figure_table, verdict_table
+from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
 from stronge1994.ledger import outcome
 from stronge1994.run import record
 from stronge1994.run.gate import REPORT, TABLES
 from stronge1994.run.plans import ALONE, GATE_LOG
 from stronge1994.run.record import PASSED
+from stronge1994.verdict_tables import figure_table, verdict_table
 
 # Number of faults that are named; the log has them all.
 MOST_FAULTS = 8

@@ -1,6 +1,6 @@
 """Models of an impact that loses energy, solved at measured points with uncertain parameters."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -56,7 +56,7 @@ def each_lowered(parameters: ArrayLike, sigmas: ArrayLike) -> Array:
 
 
 def with_sigma(
-    curve: str, point: str, labels: Columns, column: str, cases: Sequence[Array]
+    curve: str, point: str, labels: Columns, column: str, cases: Iterable[Array]
 ) -> Curves:
     """A curve, and the same with its standard deviation added and taken away.
 

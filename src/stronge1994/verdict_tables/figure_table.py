@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from stronge1994.csv_tables import Row
-from stronge1994.verdict_table import DIFFERENCES, FAILS, LEDGER, ORDER, QUESTIONS
+from stronge1994.curve_names import SCENE, is_of_paper
+from stronge1994.verdict_tables.verdict_table import DIFFERENCES, FAILS, LEDGER, ORDER, QUESTIONS
 
 SCENES = "scenes"  # one row for all tables of impacts
 # Curves of models that are not the paper's begin so.
@@ -48,7 +49,7 @@ class FigureRow(NamedTuple):
 
 
 def of_run(rows: Sequence[Row]) -> list[FigureRow]:
-    """A row for each figure of the verdict table `rows`: those of the paper, others, scenes.
+    """A row for each figure of the verdict table `rows`, in their order; one for all scenes.
 
     >>> row = {"figure": "fig6", "comparison": "fig6-rebound", "question": "solved right"}
     >>> row |= {"verdict": "right", "reference": "lumped_40_digits/fig6", "unit": "m"}
@@ -56,22 +57,12 @@ def of_run(rows: Sequence[Row]) -> list[FigureRow]:
     >>> of_run([row])[0].solved[0].size
     '4e-13'
     """
-    names = sorted({_name(row) for row in rows}, key=_place)
+    names = dict.fromkeys(map(_name, rows))
     return [_figure_row(name, [row for row in rows if _name(row) == name]) for name in names]
 
 
-def is_of_paper(figure: str) -> bool:
-    """Whether a figure is one of the paper's."""
-    return figure.startswith("fig") and figure[3:].isdigit()
-
-
 def _name(row: Row) -> str:
-    return SCENES if row["figure"].startswith("scene_") else row["figure"]
-
-
-def _place(name: str) -> tuple[bool, bool, int, str]:
-    paper = is_of_paper(name)
-    return name == SCENES, not paper, int(name[3:]) if paper else 0, name
+    return SCENES if row["figure"].startswith(SCENE) else row["figure"]
 
 
 def _figure_row(name: str, rows: Sequence[Row]) -> FigureRow:

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from enum import StrEnum
 from pathlib import Path
 
 from stronge1994 import csv_tables
@@ -16,10 +17,42 @@ COLUMNS = [
 # The questions that a comparison answers: is the curve that of our model, do the model and the
 # paper say the same, and what do measurements and others say?
 QUESTIONS = ("solved right", "as printed", "beside others")
-FAILS = ("wrong", "diverges")  # verdicts that fail a run
 LEDGER = "ledger: "  # a note that begins so names an entry of the ledger
-DIFFERENCES = ["unexplained difference", "untested difference", "explained difference"]
-ORDER = [*FAILS, *DIFFERENCES, "awaited", "inconclusive", "agrees", "right", "as before"]
+
+
+class Verdict(StrEnum):
+    """The outcome of one comparison, worst first; only WRONG and DIVERGES fail a run.
+
+    RIGHT and WRONG answer the question whether our curve is solved right, which our own second
+    codes and laws decide; AGREES and DIVERGES are kept for the paper and for others. UNCHANGED is
+    the verdict of a check against an earlier result of this repository, or against points that the
+    curve was fitted to. It guards against accidents and is evidence of nothing. INCONCLUSIVE does
+    not count as evidence either: published points agree with the curve, but would also agree if
+    they lay `judging.verdicts.VISIBLE_SHIFT` sigmas beside it. A known difference is EXPLAINED; or
+    its cause is not known; or it is UNTESTED, because the reference does not state how much its
+    values scatter.
+
+    >>> print(Verdict.EXPLAINED)
+    explained difference
+    """
+
+    WRONG = "wrong"
+    DIVERGES = "diverges"
+    UNEXPLAINED = "unexplained difference"
+    UNTESTED = "untested difference"
+    EXPLAINED = "explained difference"
+    AWAITED = "awaited"
+    INCONCLUSIVE = "inconclusive"
+    AGREES = "agrees"
+    RIGHT = "right"
+    UNCHANGED = "as before"
+
+
+ORDER: list[str] = [*Verdict]
+# The verdict that fails a run, by the question that a comparison answers.
+FAILED = dict.fromkeys(QUESTIONS, Verdict.DIVERGES) | {QUESTIONS[0]: Verdict.WRONG}
+FAILS = (Verdict.WRONG, Verdict.DIVERGES)
+DIFFERENCES = [Verdict.UNEXPLAINED, Verdict.UNTESTED, Verdict.EXPLAINED]
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
@@ -35,7 +68,7 @@ def _rows(path: str) -> list[Row]:
         return csv_tables.read_rows(path, COLUMNS)
     except csv_tables.Failed as error:
         name = Path(path).stem
-        cells = {"figure": name, "comparison": f"{name}-solved", "verdict": FAILS[0]}
+        cells = {"figure": name, "comparison": f"{name}-solved", "verdict": Verdict.WRONG}
         cells["question"] = QUESTIONS[0]
         return [dict.fromkeys(COLUMNS, "") | cells | {"note": f"{error}"}]
 
