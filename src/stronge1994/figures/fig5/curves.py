@@ -7,7 +7,8 @@ from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound, Regime
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.curves import as_printed as printed_curves
-from stronge1994.figures.shared.curves import continua, measured
+from stronge1994.figures.shared.curves import measured
+from stronge1994.figures.shared.curves.beside import CONTINUA
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
@@ -32,7 +33,7 @@ def curves(
 
     The elastic continuum has e = 1 whatever the restitution. `rubber` and `finite elements` have a
     curve `lumped, ...` and `continuum, ...` each. The experiment, a sphere shot at a plane without
-    spin, has a curve of the lumped model and of each of `continua.MODELS`, with the quantities that
+    spin, has a curve of the lumped model and of each of `CONTINUA`, with the quantities that
     are measured against the angle of incidence; beside them stand curves with one parameter off by
     one sigma, named by `curve_names.shifted`. `spin` is that after the impact, negative in the
     direction of incidence; that of the experiment, in rad/s, has the other sign.
@@ -73,7 +74,7 @@ def curves(
         "lumped, finite elements": _sphere(x, lumped.rebound(x, *own), own[0]),
         "continuum, finite elements": _sphere(x, elastic["finite elements"], own[0]),
     }
-    for model in ("lumped.hysteretic", *continua.MODELS):
+    for model in ("lumped.hysteretic", *CONTINUA):
         sphere = experiment, uncertainty or {}, samples, loss_tolerance, angles
         named |= measured.shots(model, f"{model}, experiment", *sphere)
     if as_printed:

@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.goodness import ChiSquared, chi_squared
@@ -67,12 +66,3 @@ def goodness(curves: Curves, model: str, measured: Columns, trial: Trial = AS_JU
     moved = trial.share * (up - down) / 2 / sigma
     kept = ~np.isin(measured["pair"], list(trial.without))
     return chi_squared(distance[kept], np.diag(moved[kept]))
-
-
-def slope(measured: Columns, without: Sequence[str] = ()) -> tuple[float, float]:
-    """Slope of beta_0 against restitution by weighted least squares, and its standard deviation."""
-    kept = ~np.isin(measured["pair"], list(without))
-    e, beta_0, sigma = (measured[column][kept] for column in (E, BETA_0, SIGMA))
-    line: Array = np.stack([np.ones_like(e), e], axis=1) / sigma[:, None]
-    covariance = np.linalg.inv(line.T @ line)
-    return float((covariance @ line.T @ (beta_0 / sigma))[1]), float(np.sqrt(covariance[1, 1]))
