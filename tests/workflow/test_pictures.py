@@ -9,10 +9,12 @@ import pytest
 from matplotlib.collections import Collection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from PIL import Image
 
 from stronge1994 import csv_tables
 from stronge1994.curve_names import is_of_paper, is_shifted
 from stronge1994.figures.shared import drawing as drawings
+from stronge1994.figures.shared.drawing import slide
 from stronge1994.plan import figures
 from stronge1994.run import plans
 
@@ -86,6 +88,18 @@ def test_nothing_written_lies_on_something_else_or_is_cut_off(given, figure):
         inner = box.padded(-1)
         on = [other for other, its in boxes[place + 1 :] if inner.overlaps(its.padded(-1))]
         assert not on, (words, on)
+
+
+@pytest.mark.parametrize("figure", figures.with_trait("slide"))
+def test_a_slide_fills_a_projector_and_nothing_is_cut_off(given, figure, tmp_path):
+    curves, draw = given(figure)
+    files = {ground: str(tmp_path / f"{ground}.png") for ground in ("light", "dark")}
+    slide.save(draw(curves), **figures.stated()[figure]["slide"], **files)
+    for ground, dark in (("light", False), ("dark", True)):
+        pixels = np.asarray(Image.open(files[ground]).convert("L"), float)
+        assert pixels.shape == (1080, 1920) and (np.median(pixels) < 30) == dark
+        edges = [pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]]
+        assert np.ptp(np.concatenate(edges)) == 0
 
 
 def texts(picture):
