@@ -162,7 +162,7 @@ def test_the_explorer_shows_the_impacts_that_the_entries_speak_of():
 
 
 def test_every_check_is_used():
-    measures = {name for claim in CLAIMS.values() for name in checking.needed(claim)}
+    measures = {name for claim in CLAIMS.values() for name in entries.needed(claim)}
     used = {entry["check"] for entry in EXECUTED.values()} | {f"nature.{m}" for m in measures}
     assert used == set(ledger.checks())
     assert all(words.endswith(".") for words in ledger.checks().values())
@@ -562,17 +562,17 @@ def test_slip_throughout_begins_in_nature_where_its_words_say(measured):
 
 
 BAD_LEDGER = [
-    ("check: peak_spread", "check: peak", "in_nature.check: 'nature.peak' is no function"),
+    ("check: peak_spread", "check: peak", "leaves-peak: 'nature.peak' is no function"),
     (
         "{peak_spread.viscous:.2f}",
         "{peak_spread.water:.2f}",
-        "in_nature.says: 'nature.peak_spread.water' is no function",
+        "'nature.peak_spread.water' is no function",
     ),
     ("      verdict: stands\n", "      verdict: fails\n", "in_nature: 'between' is a required"),
     (
         "check: slip.velocity_at_slip",
         "check: slip.speed",
-        "eq-12.check: 'slip.speed' is no",
+        "eq-12: 'slip.speed' is no",
     ),
     ("    verdict: confirmed\n", "    verdict: true enough\n", "'true enough' is not one of"),
     ("    where: p. 440, Eq. 12\n", "    place: p. 440\n", "eq-12: .*'place' was unexpected"),
@@ -582,7 +582,7 @@ BAD_LEDGER = [
     ("  duration:\n", "  eq-12:\n", "sentences.eq-12: the name is taken"),
     ("  eq-13:\n", "  eq-12:\n", "the key 'eq-12' stands twice"),
     ("  eq-13:\n", "  13:\n", "the key '13' is no text"),
-    ("derivation see eq-38.", "derivation see eq-83.", "'see eq-83': there is no such entry"),
+    ("derivation see eq-38.", "derivation see eq-83.", "'see eq-83' is no entry"),
     (
         "    grade: sign or misprint\n",
         "    grade: sloppy\n",
@@ -602,7 +602,7 @@ BAD_LEDGER = [
     (
         "{fact: peak_angle_mu_1}",
         "{fact: peak_angle}",
-        "confirms.fact = 'peak_angle': allowed are the facts",
+        "confirms.fact = 'peak_angle': source.yaml has no such",
     ),
     (
         "    why: Wear is",

@@ -24,8 +24,8 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
     """
     read = reference_data.load_yaml(path)
     reference_data.refuse_invalid(read, schema, path)
+    facts = reference_data.load_yaml(Path(path).with_name("source.yaml")).get("facts", {})
     entries: dict[str, Entry] = {}
-    facts = _facts(path)
     for kind in ("equations", "sentences"):
         for name, entry in read[kind].items():
             where = f"{path}: {kind}.{name}"
@@ -35,33 +35,38 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
             entries[name] = {"kind": kind[:-1], **_with_fact(where, entry, facts)}
     _explain(path, entries, read["causes"])
     for name, entry in entries.items():
-        texts = entry | {"in_nature": entry.get("in_nature", {}).get("says")}
-        for key, text in texts.items():
-            _refuse_dangling(f"{path}: {name}.{key}", text, entries)
+        for other in REFERENCE.findall(" ".join(map(str, entry.values()))):
+            if other not in entries:
+                raise reference_data.SourceError(f"{path}: {name}: 'see {other}' is no entry")
     return entries
 
 
-def _facts(path: str | Path) -> dict[str, dict[str, float]]:
-    """Stated values of the source.yaml beside a ledger, with tolerances: `{name: confirms}`."""
-    facts = reference_data.load_yaml(Path(path).with_name("source.yaml")).get("facts", {})
-    return {
-        name: {"value": fact["value"], "rounding": fact["tolerance"]}
-        for name, fact in facts.items()
-        if {"value", "tolerance"} <= set(fact)
-    }
+def _refuse_unknown_checks(where: str, entry: Entry) -> None:
+    claim = entry.get("in_nature", {})
+    of_nature = [claim["check"]] if "check" in claim else []
+    of_nature += numbers_in(claim.get("says", ""))
+    asked = [entry["check"]] if "check" in entry else []
+    asked += [f"nature.{name}" for name in of_nature]
+    known = {*ledger.checks(), *(f"{name}.{m}" for name in ledger.checks() for m in MODELS)}
+    for name in asked:
+        if name not in known:
+            raise reference_data.SourceError(
+                f"{where}: '{name}' is no function of stronge1994.ledger"
+            )
 
 
-def _with_fact(where: str, entry: Entry, facts: Mapping[str, dict[str, float]]) -> Entry:
+def _with_fact(where: str, entry: Entry, facts: Mapping[str, Mapping[str, Any]]) -> Entry:
     """An entry with value and tolerance in place of the fact that it names."""
     name = entry.get("confirms", {}).get("fact")
     if name is None:
         return entry
-    if name not in facts:
+    fact = facts.get(name, {})
+    if not {"value", "tolerance"} <= set(fact):
         raise reference_data.SourceError(
-            f"{where}.confirms.fact = '{name}': allowed are the facts of source.yaml with value "
-            f"and tolerance: {', '.join(facts)}"
+            f"{where}.confirms.fact = '{name}': source.yaml has no such fact with value and "
+            "tolerance"
         )
-    return entry | {"confirms": facts[name]}
+    return entry | {"confirms": {"value": fact["value"], "rounding": fact["tolerance"]}}
 
 
 def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, str]) -> None:
@@ -78,38 +83,21 @@ def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, s
         raise reference_data.SourceError(f"{path}: causes.{cause}: no entry has this cause")
 
 
-def _refuse_unknown_checks(where: str, entry: Entry) -> None:
-    claim = entry.get("in_nature", {})
-    asked = {
-        ".check": [entry["check"]] if "check" in entry else [],
-        ".in_nature.check": [f"nature.{claim['check']}"] if "check" in claim else [],
-        ".in_nature.says": [".".join(("nature", *n)) for n in numbers_in(claim.get("says", ""))],
-    }
-    known = {*ledger.checks(), *(f"{name}.{m}" for name in ledger.checks() for m in MODELS)}
-    for field, names in asked.items():
-        for name in names:
-            if name not in known:
-                raise reference_data.SourceError(
-                    f"{where}{field}: '{name}' is no function of stronge1994.ledger"
-                )
-
-
-def numbers_in(text: str) -> list[tuple[str, str]]:
+def numbers_in(text: str) -> list[str]:
     """Checks of `nature`, each with its model, of which a text asks for the number.
 
     >>> numbers_in("{peak_spread.viscous:.2f} mu v2(0)")
-    [('peak_spread', 'viscous')]
+    ['peak_spread.viscous']
     """
-    fields = [name for _, name, _, _ in string.Formatter().parse(text) if name is not None]
-    return [(name, model) for name, _, model in (field.partition(".") for field in fields)]
+    return [name for _, name, _, _ in string.Formatter().parse(text) if name is not None]
+
+
+def needed(claim: Mapping[str, Any]) -> list[str]:
+    """Checks of `nature` that decide a claim, or whose numbers its text quotes."""
+    names = [claim["check"]] if "check" in claim else []
+    return names + [name.partition(".")[0] for name in numbers_in(claim["says"])]
 
 
 def is_run(entry: Entry) -> bool:
     """Whether a run tests something of an entry: a verdict by the equations, or one in nature."""
     return "check" in entry or "check" in entry.get("in_nature", {})
-
-
-def _refuse_dangling(where: str, text: Any, entries: dict[str, Entry]) -> None:
-    for name in REFERENCE.findall(text) if isinstance(text, str) else ():
-        if name not in entries:
-            raise reference_data.SourceError(f"{where}: 'see {name}': there is no such entry")
