@@ -21,9 +21,7 @@ include: "workflow/rules/common.smk"
 localrules:
     all,
     figures,
-    measurements,
     notebooks,
-    sphere_tables,
     draw,
     draw_with_slide,
     judge,
@@ -31,10 +29,7 @@ localrules:
     ledger_page,
     note,
     trade_tables,
-    stability_table,
     explorer,
-    start_page,
-    interface,
     report,
     site,
 
@@ -49,25 +44,11 @@ rule figures:
         slides_of(UNTIMED),
 
 
-rule measurements:
-    """Pictures of error against processor time, measured on this machine, without judging."""
-    input:
-        expand("results/curves/{figure}.csv", figure=TIMED),
-        expand("figures/{figure}.{kind}", figure=TIMED, kind=["svg", "png"]),
-        slides_of(TIMED),
-
-
 rule notebooks:
     """The lectures alone: notebooks run from the first cell to the last, as pages."""
     input:
         expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS),
         expand("figures/{notebook}.html", notebook=NOTEBOOKS),
-
-
-rule sphere_tables:
-    """The tables of spheres that the package brings along, made anew."""
-    input:
-        expand("results/spheres/{table}.npz", table=["fine", "coarse"]),
 
 
 include: "workflow/rules/curves.smk"
@@ -77,11 +58,9 @@ include: "workflow/rules/judging.smk"
 include: "workflow/rules/ledger.smk"
 include: "workflow/rules/note.smk"
 include: "workflow/rules/trade.smk"
-include: "workflow/rules/stability.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/explorer.smk"
 include: "workflow/rules/report.smk"
-include: "workflow/rules/spheres.smk"
 
 
 # Every rule whose files a run makes: the gate asks for all of them, wanted by others or not.
@@ -94,13 +73,12 @@ MAKERS = [
     rules.ledger_page,
     rules.note,
     rules.trade_tables,
-    rules.stability_table,
     rules.scene,
     rules.lecture,
     rules.explorer,
-    rules.start_page,
     rules.report,
 ]
+MADE = expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES) + slides_of(FIGURES)
 
 
 include: "workflow/rules/site.smk"
@@ -140,8 +118,7 @@ rule all:
     input:
         plan=planned("all", "gate", "run", "judging", "verdict_tables", "ledger", "reference_data",
             settings=lambda _: EXPECTED),
-        made=expand([f"{path}" for maker in MAKERS for path in maker.output], **VALUES)
-        + slides_of(FIGURES),
+        made=MADE,
     params:
         plans=plans.digest(PLANNED),
         jobs=PLANNED,
@@ -155,7 +132,7 @@ rule all:
         "workflow/scripts/gate.py"
 
 
-TARGETS = ["all", *JUDGED, "figures", "measurements", "notebooks", "site", "sphere_tables"]
+TARGETS = ["all", *JUDGED, "figures", "notebooks", "site"]
 if workflow.is_main_process:
     logger.addFilter(last_words.Help(TARGETS))
 

@@ -62,7 +62,7 @@ REPRODUCTION = {
 }
 # The figures have one folder each, and in it files that solve and files that draw, or that judge
 # what is drawn.
-DRAWING = ("drawing", "draw_", "slide", "trials")
+DRAWING = ("drawing", "draw_", "trials")
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
 # of the reproduction has a door of its own.

@@ -31,6 +31,9 @@ Symbols and their names. Every model takes the first four. Index 1 is tangential
 | mu, nu | friction and Poisson's ratio of bodies | `friction`, `poisson_ratio` |
 | tau | relaxation time of viscous bodies (Kelvin-Voigt) [s] | `relaxation_time` |
 | p_y | yield pressure of plastic bodies [Pa] | `yield_pressure` |
+
+An example runs after `import numpy as np` and `from planarimpact.lumped import *`, where `lumped`
+stands for the module on whose page it is.
 """
 
 __version__ = "0.2.0"  # before the rooms, as `export` writes it into its files

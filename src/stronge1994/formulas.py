@@ -13,11 +13,10 @@ SET = re.compile(r"\$([^$]+)\$([.,;:)]*)|`([^`]+)`|(?<![\w.])(\d[\d.]*)e([-+]?\d
 def mathematical(text: str) -> Markup:
     r"""A text as HTML: its `$formulas$` as MathML, `code`, powers of ten.
 
-    An unknown command raises `docutils.utils.math.MathError`. The plain form of a formula is its
-    `alttext`.
+    An unknown command raises `docutils.utils.math.MathError`.
 
     >>> print(mathematical(r"$\mu^2$ < 2e-05"))
-    <math alttext="mu^2"><msup><mi>μ</mi><mn>2</mn></msup></math> &lt; 2×10<sup>−5</sup>
+    <math><msup><mi>μ</mi><mn>2</mn></msup></math> &lt; 2×10<sup>−5</sup>
     """
     html, done = [], 0
     for found in SET.finditer(text):
@@ -29,9 +28,10 @@ def mathematical(text: str) -> Markup:
 def _set(formula: str, mark: str, code: str, digits: str, power: str) -> Markup:
     """One part of a text, by the groups of `SET`; those of other parts are None."""
     if formula:
-        mathml = re.sub(r"\s*\n\s*|^<math[^>]*>", "", tex2mathml(formula))
+        mathml = re.sub(r'\s*\n\s*| xmlns="[^"]*"', "", tex2mathml(formula))
         mathml = mathml.replace('<mo stretchy="false">/', '<mo lspace="0" rspace="0">/')
-        html = Markup('<math alttext="{}">').format(plain(f"${formula}$")) + Markup(mathml)
+        # `{} + x` is a sum whose first part stands before it.
+        html = Markup(mathml.replace("<mrow></mrow><mo>", '<mo form="infix">'))
         return Markup('<span class="joined">{}{}</span>').format(html, mark) if mark else html
     if code:
         return Markup("<code>{}</code>").format(code)

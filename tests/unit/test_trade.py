@@ -8,7 +8,6 @@ import pytest
 
 from planarimpact import InputError, models
 from stronge1994 import csv_tables
-from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.trade import answers as trade_table
 from stronge1994.figures.trade import curves as trade
 from stronge1994.figures.trade import drawing as draw_trade
@@ -243,13 +242,6 @@ def test_error_of_the_reference_counts():
     assert trade_table.which_model(ROWS, [1.1e-6])[0]["model_10"] == "slow"
 
 
-def test_no_lossy_name_and_no_second_table_stands_at_e_1(named):
-    """`spheres.viscous` and `spheres.plastic` are one there."""
-    elastic = [row["model"][0] for row in named.values() if row["restitution [1]"][0] == 1]
-    assert not [name for name in elastic if name.endswith((".viscous", ".plastic", ".hysteretic"))]
-    assert elastic.count("spheres") == 1
-
-
 @pytest.mark.parametrize(
     ("rivals", "chosen"),
     [
@@ -257,10 +249,6 @@ def test_no_lossy_name_and_no_second_table_stands_at_e_1(named):
         ({"timestep.linear, 16 steps": (0.232, 0.70), "lumped": (0.215, 0.76)}, "lumped"),
         ({"lumped": (0.215, 0.70), "timestep.linear, 16 steps": (0.232, 0.76)}, "lumped"),
         ({"spheres": (1e-5, 0.76), "lumped": (0.215, 0.70)}, "spheres"),
-        # As near to two digits: the simpler one, in whatever order they come.
-        ({"spline of lumped": (0.21504, 0.70), "lumped": (0.21505, 0.72)}, "lumped"),
-        ({"lumped": (0.21504, 0.72), "timestep.linear, 256 steps": (0.21501, 0.70)}, "lumped"),
-        ({"own": (0.21504, 0.70), "annuli, 4 circles": (0.2151, 0.72)}, "annuli, 4 circles"),
         # Faster by more than times scatter, and more: the faster one.
         ({"timestep.linear, 16 steps": (0.232, 0.70), "lumped": (0.215, 0.79)}, "timestep"),
         ({"laws.brach": (0.29, 0.1), "continuum": (1e-6, 100.0)}, "laws.brach"),
@@ -271,7 +259,7 @@ def test_no_lossy_name_and_no_second_table_stands_at_e_1(named):
         ({"rigid": (1.8, 0.05), "lumped": (0.215, 0.9)}, "lumped"),
     ],
 )
-def test_of_models_that_are_as_fast_the_nearer_and_simpler_is_named(rivals, chosen):
+def test_of_models_that_are_as_fast_the_nearer_is_named(rivals, chosen):
     for batch, build in ((1000, ""), (10, "7e-12")):
         rows = []
         for name, (error, time_of, *scatter) in rivals.items():
@@ -291,15 +279,6 @@ def test_the_time_to_make_a_spline_may_be_off_as_a_time_of_another_run_is():
     ]
     (found,) = trade_table.which_model(rows, [0.3])
     assert (found["model_10"], found["model_1000"]) == ("spheres", "spline of lumped")
-
-
-def test_the_picture_says_how_far_times_scatter(named):
-    curves = {name: dict(columns) for name, columns in named.items()}
-    for columns in curves.values():
-        columns["scatter_1 [1]"] = columns["scatter_100 [1]"] = np.array([0.06])
-    curves["rigid, e = 1"]["scatter_1 [1]"] = np.array([0.42])
-    figure = drawings.drawn(draw_trade, curves, SETTINGS, {})
-    assert "times scatter by 6 % (median), 42 % at most" in figure.get_suptitle()
 
 
 def test_tables_are_written_and_keep_their_words(named, tmp_path):

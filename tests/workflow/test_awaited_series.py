@@ -12,9 +12,7 @@ import pytest
 from planarimpact import continuum, lumped
 from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.figures.fig5 import curves as fig5
-from stronge1994.figures.fig5 import drawing as draw_fig5
 from stronge1994.figures.fig8 import curves as fig8
-from stronge1994.figures.fig8 import drawing as draw_fig8
 from stronge1994.judging import compare
 from stronge1994.plan import config as configuration
 
@@ -207,21 +205,6 @@ def test_a_regime_chooses_its_points(regime, points, judged):
     """Of the rubber sphere they begin at zeta^2 = 1.5 and 2 beta - zeta^2 = 5.5."""
     x, y = [-0.05, 1.49, 1.51, 5.49, 5.51], [0.0, 0.0, 0.0, 0.0, 0.0]
     assert judged(RUBBER, x, y, **({"regime": regime} if regime else {}))["points"] == points
-
-
-@pytest.mark.parametrize(
-    ("module", "name"),
-    [(draw_fig5, RUBBER), *((draw_fig8, name) for name in list(AWAITED)[1:])],
-)
-def test_a_point_just_outside_the_axes_is_drawn(module, name, inventory, curves):
-    figure = module.__name__.split(".")[-2]
-    points = {
-        name: {"x": np.array([-0.05, 1.0]), "y": np.array([0.0, 0.1]), "sigma": (0.1, 0.1),
-               "line": False, "parameters": {}}
-    }  # fmt: skip
-    settings = plan.settings(CONFIG, inventory, figure)
-    drawn = module.draw(csv_tables.read(curves / f"{figure}.csv"), settings, points)
-    assert drawn.axes[0].get_xlim()[0] == -0.05
 
 
 @pytest.mark.parametrize(

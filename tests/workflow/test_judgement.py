@@ -17,7 +17,7 @@ from stronge1994.verdict_tables import verdict_table
 from tests.workflow.project import ROOT
 
 # Not part of a run, but asked for.
-OTHERS = {"measure_peers", "draw_peers", "make_spheres", "site", "interface"}
+OTHERS = {"site"}
 
 
 def test_every_file_of_a_run_is_asked_for(first_run):
@@ -26,7 +26,7 @@ def test_every_file_of_a_run_is_asked_for(first_run):
     makers = re.split(r"^rule ", rules, flags=re.M)[1:]
     names = {text.split(":")[0] for text in makers if "output:" in text}
     asked = set(re.findall(r"rules\.(\w+)", (ROOT / "Snakefile").read_text()))
-    assert names - asked == OTHERS - {"measure_peers"}
+    assert names - asked == OTHERS
     project, _ = first_run
     wrote = {path for record in project.records().values() for path in record["wrote"]}
     files = [
@@ -143,7 +143,7 @@ def test_entries_that_do_not_hold_do_not_pass(expected, holds):
     assert len(found) == 1 and "eq-41" in found[0]
 
 
-TABLES = ("verdicts", "ledger", "trade", "which_model", "key_numbers")
+TABLES = ("verdicts", "ledger", "which_model", "key_numbers")
 
 
 @pytest.fixture
@@ -204,7 +204,7 @@ DAMAGE = [
     ),
     ("results/ledger.csv", "", "results/ledger.csv"),
     ("results/ledger.csv", ",".join(outcome.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
-    ("results/trade.csv", "a,b\n1\n", "results/trade.csv, line 2"),
+    ("results/which_model.csv", "a,b\n1\n", "results/which_model.csv, line 2"),
     ("results/residuals/fig5.csv", "comparison\nfig5-lumped-exact\n", "Fig. 5: "),
     ("results/residuals/fig5.csv", None, "residuals/fig5.csv"),
     ("figures/fig6.svg", None, "fig6.svg"),

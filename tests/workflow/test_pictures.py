@@ -20,7 +20,7 @@ from stronge1994.run import plans
 NOT_DRAWN = {
     "fig5": "finite elements",
     "fig9": "no tangential compliance, (mu = 0.1|.*, e = 0.5)",
-    "rubber_sphere": "impacts|stated",
+    "rubber_sphere": "impacts|stated|rms",
     "stability": "contacts",
     "trade": "steps|e = 0.8",
     "yielding": "continuum, nu",
@@ -38,7 +38,7 @@ def given(first_run):
         module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
         return csv_tables.read(
             project / f"results/curves/{figure}.csv"
-        ), lambda curves: drawings.drawn(module, curves, settings["settings"], points)
+        ), lambda curves: module.draw(curves, settings["settings"], points)
 
     return of
 

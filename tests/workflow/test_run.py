@@ -1,7 +1,6 @@
 """The workflow as a user meets it: what runs, what reruns, what fails."""
 
 import csv
-import json
 import os
 import re
 import shutil
@@ -41,12 +40,10 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
         ):
             assert (project / path).stat().st_size > 100
         assert (project / f"results/records/draw_{figure}.json").exists()
-    folders = figures.FOLDER.glob("*/slide.py")
-    slides = {
-        f"{path.parent.name}_{ground}.png" for path in folders for ground in ("light", "dark")
-    }
+    named = figures.with_trait("slide")
+    slides = {f"{figure}_{ground}.png" for figure in named for ground in ("light", "dark")}
     assert slides == {path.name for path in (project / "figures/slides").iterdir()}
-    for table in ("trade", "which_model", "stability"):
+    for table in ("trade", "which_model"):
         assert (project / f"results/{table}.csv").stat().st_size > 100
     found = verdicts(project)
     assert not set(found.values()) & set(FAILS)
@@ -85,31 +82,6 @@ def test_headers_carry_units(first_run):
         assert all("[" in name for name in header.split(",") if name not in words), header
 
 
-def test_report_has_every_picture_with_its_caption(finished):
-    result = finished.run("--report", "report.html")
-    assert result.returncode == 0, result.stdout
-    page = (finished / "report.html").read_text()
-    results, categories = (
-        json.JSONDecoder().raw_decode(page.split(f'<script id="{name}">\n    var {name} = ')[1])[0]
-        for name in ("results", "categories")
-    )
-    filed = [path for parts in categories.values() for paths in parts.values() for path in paths]
-    # Our own report would only say it all twice; slides and answers belong to their lecture.
-    own = "report.html", "slides_*", "answers_*"
-    pages = {
-        f"figures/{path.name}"
-        for path in (finished / "figures").glob("*.html")
-        if not any(path.match(name) for name in own)
-    }
-    assert {*pages, *(f"figures/{figure}.svg" for figure in FIGURES)} <= set(results)
-    assert sorted(filed) == sorted(results) and "Other" not in categories
-    assert all(len(result["caption"]) > 30 for result in results.values())
-    for figure, stated in figures.stated().items():
-        assert stated["caption"][:20] in page and f"{figure}.svg" in page
-    assert "The paper checked" in page
-    assert "which_model.csv" in page and "Which model for which tolerance" in page
-
-
 def test_a_second_run_only_judges(finished):
     """Also with files that were touched and hold what they did."""
     for folder in ("src", "data"):
@@ -130,10 +102,9 @@ def test_dry_run_is_clean(fresh):
     result = fresh.run("--dry-run", "--quiet", "host")
     assert result.returncode == 0
     assert "warning" not in result.stdout.lower()
-    slides = len(list(figures.FOLDER.glob("*/slide.py")))
+    slides = len(figures.with_trait("slide"))
     for rule, number in (("draw", len(FIGURES) - slides), ("draw_with_slide", slides)):
         assert re.search(rf"^{rule} +{number}$", result.stdout, flags=re.M)
-    assert "peers" not in result.stdout, "they are for those who ask"
 
 
 def test_every_rule_has_what_every_rule_needs():

@@ -159,11 +159,10 @@ def test_a_setting_that_is_allowed_is_drawn_and_judged(
     except Exception as error:
         assert isinstance(error, ConvergenceError) or "allowed are" in f"{error}", repr(error)
         return
-    slides = {}
-    if (figures.FOLDER / name / "slide.py").is_file():
-        slides = {"light": str(tmp_path / "light.png"), "dark": str(tmp_path / "dark.png")}
-    pictures = str(tmp_path / "a.svg"), str(tmp_path / "a.png")
-    drawings.draw(name, planned["settings"], planned["overlays"], curves, pictures, slides)
+    pictures = {key: str(tmp_path / f"{key}.png") for key in ("png", "light", "dark")}
+    pictures["svg"] = str(tmp_path / "a.svg")
+    planned["slide"] = figures.stated()[name].get("slide")
+    drawings.draw(name, planned, curves, pictures)
     parts = judged["comparisons"], judged["references"]
     rows = judging.compare(name, *parts, curves, judged["significance"])
     assert [row["comparison"] for row in rows] == [f"{name}-solved", *judged["comparisons"]]

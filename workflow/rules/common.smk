@@ -1,6 +1,5 @@
 # Check config and data before any work, and plan every job.
 from stronge1994.curve_names import SCENE, is_of_paper
-from stronge1994.formulas import plain
 from stronge1994.ledger import entries
 
 LEDGER = "data/stronge1994/ledger.yaml"
@@ -29,8 +28,7 @@ except (reference_data.SourceError, ConfigError) as error:
 
 TIMED = figures.with_trait("timed")
 UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
-# Figures with a slide.
-SLIDES = [figure for figure in FIGURES if (figures.FOLDER / figure / "slide.py").is_file()]
+SLIDES = figures.with_trait("slide")
 CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}
 
 
@@ -49,7 +47,6 @@ VALUES = {
     "judged": list(JUDGED),
     "scene": list(config["scenes"]),
     "notebook": NOTEBOOKS,
-    "table": ["fine", "coarse"],
 }
 
 
@@ -91,7 +88,8 @@ def of_figure(part, plans=FIGURES, wildcard="figure"):
 
 def of_drawing(figure):
     """Settings of the plan of a drawing."""
-    return {key: FIGURES[figure][key] for key in ("settings", "overlays")}
+    own = {key: FIGURES[figure][key] for key in ("settings", "overlays")}
+    return own | {"slide": figures.stated()[figure].get("slide")}
 
 
 def slides_of(figures):

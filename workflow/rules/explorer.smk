@@ -6,20 +6,18 @@ EXPLORER_PARTS += [f"{script}.js" for script in [*EXPLORER_SCRIPTS, "check"]]
 
 
 rule explorer:
-    """A page to throw balls and explore impacts; it solves both models itself."""
+    """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
         plan=planned("explorer", "write_explorer", "explorer", "pages/__init__.py",
-            "pages/templates.py", "plan", "reference_data",
+            "pages/names.py", "pages/templates.py", "plan", "reference_data",
             settings=lambda _: plan.settings_of_explorer(config)),
         sources=expand("workflow/explorer/{file}", file=EXPLORER_PARTS),
+        start="workflow/report/index.html",
+        parts="workflow/report/page.css",
         shared=EVERY_PAGE,
     output:
-        page=report(
-            "figures/explorer.html",
-            caption="../report/explorer.rst",
-            category="Explorer",
-            labels={"page": "a ball to throw"},
-        ),
+        page="figures/explorer.html",
+        start="figures/index.html",
         record="results/records/explorer.json",
     log:
         "results/logs/explorer.log",

@@ -30,12 +30,7 @@ rule ledger_page:
         shared=EVERY_PAGE,
         table="results/ledger.csv",
     output:
-        page=report(
-            "figures/ledger.html",
-            caption="../report/ledger.rst",
-            category="Ledger",
-            labels={"page": "the paper checked"},
-        ),
+        page="figures/ledger.html",
         record="results/records/ledger_page.json",
     log:
         "results/logs/ledger_page.log",

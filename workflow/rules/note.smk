@@ -28,12 +28,7 @@ rule note:
         ],
         pictures=expand("figures/{figure}.svg", figure=SHOWN),
     output:
-        page=report(
-            "figures/note.html",
-            caption="../report/note.rst",
-            category="Ledger",
-            labels={"page": "a note on the replication"},
-        ),
+        page="figures/note.html",
         numbers="results/key_numbers.csv",
         record="results/records/note.json",
     log:

@@ -18,12 +18,7 @@ rule lecture:
         shared=EVERY_PAGE,
     output:
         executed="results/notebooks/{notebook}.ipynb",
-        page=report(
-            "figures/{notebook}.html",
-            caption="../report/notebooks.rst",
-            category="Teaching",
-            labels={"lecture": "{notebook}"},
-        ),
+        page="figures/{notebook}.html",
         slides="figures/slides_{notebook}.html",
         answers="figures/answers_{notebook}.html",
         record="results/records/lecture_{notebook}.json",

@@ -6,17 +6,7 @@ REPORT_PARTS = [
     "workflow/report/unfold.js",
     "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
-    *expand("workflow/report/{part}.rst", part=["trade", "which_model", "stability"]),
-]
-
-
-# Times of LAMMPS and pooltool, once `snakemake peers` has measured them.
-PEERS = ["results/peers.csv"] if Path("results/peers.csv").exists() else []
-
-
-# Changes to the templates of pdoc.
-INTERFACE_PARTS = [
-    *expand("workflow/report/interface/{part}", part=["module.html.jinja2", "index.html.jinja2", "custom.css"]),
+    *expand("workflow/report/{part}.rst", part=["trade", "which_model"]),
 ]
 
 
@@ -29,51 +19,6 @@ REPORT_SETTINGS = {
     "sources": SOURCES,
     **EXPECTED,
 }
-
-
-rule start_page:
-    """The page to begin with: for whom teaches, verifies, or chooses a model."""
-    input:
-        plan=planned("start_page", "write_start_page", "pages/__init__.py", "pages/templates.py",
-            "plan", "reference_data"),
-        template="workflow/report/index.html",
-        parts="workflow/report/page.css",
-        shared=EVERY_PAGE,
-    output:
-        page=report(
-            "figures/index.html",
-            caption="../report/index.rst",
-            category="Start",
-            labels={"page": "where to begin"},
-        ),
-        record="results/records/start_page.json",
-    log:
-        "results/logs/start_page.log",
-    message:
-        "Writing the page to begin with"
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/write_start_page.py"
-
-
-rule interface:
-    """What the functions of the solver take and return, as pages made from their docstrings."""
-    input:
-        plan=planned("interface", "write_interface", "pages", "plan", "printed", "reference_data"),
-        parts=INTERFACE_PARTS,
-        shared=EVERY_PAGE,
-    output:
-        pages=directory("figures/interface"),
-        record="results/records/interface.json",
-    log:
-        "results/logs/interface.log",
-    message:
-        "Writing the interface of the solver"
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/write_interface.py"
 
 
 rule report:
@@ -90,25 +35,18 @@ rule report:
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         ledger="results/ledger.csv",
         numbers=rules.note.output.numbers,
-        tables=[rules.trade_tables.output.table, rules.trade_tables.output.answers, *PEERS],
+        answers=rules.trade_tables.output.answers,
         linked=[
             "results/verdicts.csv",
-            "results/stability.csv",
             "results/trade.csv",
             "results/which_model.csv",
             *expand("results/{kind}/{figure}.csv", kind=["curves", "residuals"], figure=FIGURES),
         ],
         records=[expand(rule.output.record, **VALUES) for rule in (rules.curves, rules.draw,
-            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables,
-            rules.stability_table, rules.note)],
+            rules.judge, rules.gather, rules.scene, rules.ledger, rules.trade_tables, rules.note)],
     output:
         page="figures/report.html",
-        sources=report(
-            "figures/sources.html",
-            caption="../report/sources.rst",
-            category="Sources",
-            labels={"page": "sources of data, settings, versions"},
-        ),
+        sources="figures/sources.html",
         tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
         problems="results/problems.csv",
         record="results/records/report.json",

@@ -1,26 +1,19 @@
 # All pages in one folder, for a web server or a stick: `snakemake --cores 2 site`, not part of `all`.
 
-# Pages and pictures of a whole run.
-PAGES = [
-    path
-    for maker in MAKERS
-    for path in expand([f"{output}" for output in maker.output], **VALUES)
-    if path.startswith("figures/")
-] + slides_of(FIGURES) + [rules.interface.output.pages]
-
-
 rule site:
-    """All pages in one folder and as a zip file, for a web server or a stick."""
+    """All pages and the interface of the solver in one folder and as a zip file, for a web server or a stick."""
     input:
-        plan=planned("site", "write_site", "pages/__init__.py", "pages/run_facts.py", "pages/site.py",
-            "pages/templates.py", "plan", "reference_data"),
-        pages=sorted(set(PAGES)),
+        plan=planned("site", "write_site", "pages/__init__.py", "pages/interface.py",
+            "pages/names.py", "pages/run_facts.py", "pages/site.py", "pages/templates.py", "plan", "printed",
+            "reference_data"),
+        # Pages and pictures of a whole run.
+        pages=[path for path in MADE if path.startswith("figures/")],
         notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS)
         + ["workflow/notebooks/lecture.mplstyle"],
         texts=["LICENSE", "CITATION.cff"],
         readme="workflow/report/site_readme.txt",
-        start="workflow/report/index.html",
-        parts=["workflow/report/page.css", *EVERY_PAGE],
+        parts=["workflow/report/index.html", "workflow/report/page.css", *EVERY_PAGE],
+        style=expand("workflow/report/interface/{part}", part=["frame.html.jinja2", "custom.css"]),
     output:
         folder=directory("results/site"),
         archive="results/site.zip",

@@ -4,18 +4,8 @@ rule trade_tables:
         plan=planned("trade", "write_trade", "figures/trade/answers.py"),
         curves="results/curves/trade.csv",
     output:
-        table=report(
-            "results/trade.csv",
-            caption="../report/trade.rst",
-            category="Trade",
-            labels={"table": "error and time of every model"},
-        ),
-        answers=report(
-            "results/which_model.csv",
-            caption="../report/which_model.rst",
-            category="Trade",
-            labels={"table": "which model for which tolerance"},
-        ),
+        table="results/trade.csv",
+        answers="results/which_model.csv",
         record="results/records/trade.json",
     log:
         "results/logs/trade.log",

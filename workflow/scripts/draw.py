@@ -5,13 +5,6 @@ from stronge1994.run import record
 with record.recorded(snakemake) as plan:
     from stronge1994.figures.shared import drawing as drawings
 
-    made = snakemake.output
-    slide = {ground: made[ground] for ground in ("light", "dark") if made.get(ground)}
     drawings.draw(
-        snakemake.wildcards.figure,
-        plan["settings"],
-        plan["overlays"],
-        snakemake.input.curves,
-        (made.svg, made.png),
-        slide,
+        snakemake.wildcards.figure, plan, snakemake.input.curves, dict(snakemake.output.items())
     )

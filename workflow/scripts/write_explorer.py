@@ -1,4 +1,4 @@
-"""Write the page to throw a ball, whose solvers must answer as the package does."""
+"""Write the page to throw a ball, with answers by which it checks itself, and the start page."""
 
 from pathlib import Path
 
@@ -7,10 +7,9 @@ from stronge1994.run import record
 with record.recorded(snakemake) as settings:
     from stronge1994.explorer import page as explorer
     from stronge1994.explorer.answers import answers
+    from stronge1994.pages import templates
 
-    known = answers(explorer.LIMITS)
-    paths = {Path(path).name: path for path in snakemake.input.sources}
-    solvers = [paths[name] for name in ("solver.js", "continuum.js", "check.js")]
-    print(explorer.refuse_other_answers(solvers, known))
-    text = explorer.page(settings, snakemake.input.sources, known)
+    text = explorer.page(settings, snakemake.input.sources, answers(explorer.LIMITS))
     Path(snakemake.output.page).write_text(text, encoding="utf-8")
+    start = templates.environment(templates.SHARED).get_template("index.html")
+    Path(snakemake.output.start).write_text(start.render(interface=""), encoding="utf-8")

@@ -9,7 +9,7 @@ with record.recorded(snakemake) as settings:
     from stronge1994.pages import report
 
     files = snakemake.input
-    tables = (files.verdicts, files.ledger, files.numbers, *files.tables)
+    tables = (files.verdicts, files.ledger, files.numbers, files.answers)
     report.copy_tables(snakemake.output.tables, files.linked)
     report.write(
         snakemake.output.page,

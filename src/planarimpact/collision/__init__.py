@@ -158,6 +158,7 @@ def collide(
     --------
     A rubber ball is thrown down with backspin, and comes back:
 
+    >>> from planarimpact import bodies
     >>> rubber = Pair(bodies.Material(5e6, 0.5), friction=0.8, restitution=0.9, loss="viscous")
     >>> ball = bodies.solid_sphere(radius=0.025, density=1100)
     >>> result = collide(rubber, [0, 0, 1], ball, [2.0, 0, -4.0], [0, -300.0, 0])

@@ -68,6 +68,7 @@ class Pair:
 
     Examples
     --------
+    >>> from planarimpact.bodies import Material
     >>> steel, glass = Material(207e9, 0.3), Material(70e9, 0.22)
     >>> Pair(steel, glass, friction=0.15, restitution=0.9, loss="plastic")
     <Pair: friction = 0.15, stiffness_ratio = 1.159, restitution = 0.9, plastic>

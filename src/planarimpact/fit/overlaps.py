@@ -58,6 +58,7 @@ def overlap(
 
     Examples
     --------
+    >>> from planarimpact import bodies
     >>> rubber = bodies.Material(young_modulus=50e6, poisson_ratio=0.45)
     >>> round(overlap(rubber, 0.005, 1100, 2.0), 3)
     0.043

@@ -173,6 +173,7 @@ def contact_velocity(motion: Motion, offset: ArrayLike, depth: ArrayLike) -> tup
 
     Examples
     --------
+    >>> from planarimpact.bodies import Motion
     >>> [float(v) for v in contact_velocity(Motion(0.0, 1.0, 2.0), offset=0.25, depth=0.5)]
     [1.0, 0.5]
     """
@@ -213,6 +214,7 @@ def motion_after(
 
     Examples
     --------
+    >>> from planarimpact.bodies import Motion
     >>> after = motion_after(Motion(0.0, 1.0, 0.0), (0.0, 1.5), 1.0, 0.5, offset=0.5, depth=0.0)
     >>> [float(v) for v in after]
     [0.0, -0.5, 3.0]

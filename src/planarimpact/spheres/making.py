@@ -2,9 +2,12 @@
 
 Each patch has nodes evenly over s, t and u. The continuum is solved with a fixed number of steps
 and with twice as many, and extrapolated: then neighbours have neighbouring errors.
+
+`python -m planarimpact.spheres.making` makes both tables of the package anew, in some minutes.
 """
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -213,3 +216,9 @@ def splined(values: Array) -> Array:
         coefficients = np.linalg.solve(matrix, right).reshape(count + 2, *rows.shape[1:])
         values = np.moveaxis(coefficients, 0, axis)
     return values
+
+
+if __name__ == "__main__":
+    for name in PLANS:
+        with open(Path(__file__).with_name(f"{name}.npz"), "wb") as file:
+            table.write(file, make(name))

@@ -2,8 +2,6 @@
 
 import json
 import math
-import shutil
-import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -141,31 +139,6 @@ def _ball(
     return {"name": name, "address": urlencode(state), "about": about}
 
 
-def refuse_other_answers(scripts: Sequence[str], answers: Sequence[Any]) -> str:
-    """Compare the solvers of the page with the package, if node is installed; a sentence for a log.
-
-    Without node the comparison is left to the page, which makes it whenever it is opened. `scripts`
-    are the files of both solvers and check.js, `answers` those of the package.
-    """
-    if not (node := shutil.which("node")):
-        return "not compared with the package here, as there is no node; the page does it"
-    code = _constants() + "".join(Path(path).read_text(encoding="utf-8") for path in scripts)
-    code += f"console.log(JSON.stringify(check.differing({json.dumps(answers)})));"
-    done = subprocess.run([node, "-"], input=code, text=True, capture_output=True, timeout=60)
-    differing = json.loads(done.stdout) if done.returncode == 0 else [[done.stderr[-500:], "run"]]
-    if differing:
-        groups, wanted = differing[0]
-        raise ArithmeticError(
-            f"the explorer differs from the package in {len(differing)} of {len(answers)} impacts: "
-            f"x, m2/m1, zeta^2, e, loss = {groups} is {wanted}"
-        )
-    return f"the solvers of the page answer {len(answers)} impacts as the package does"
-
-
-def _constants() -> str:
-    return f"const CONTINUUM_ERROR = {CONTINUUM_ERROR};\n"
-
-
 def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[Any]) -> str:
     """The page as text, from the template explorer.html and the files in the same folder."""
     texts = {Path(path).name: Markup(Path(path).read_text(encoding="utf-8")) for path in sources}
@@ -177,7 +150,6 @@ def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[
         materials=balls(texts["materials.yaml"]),
         sources=texts,
         scripts=SCRIPTS,
-        constants=Markup(_constants()),
         error=CONTINUUM_ERROR,
         curve_error=CURVE_ERROR,
         least_restitution=continuum.LEAST_RESTITUTION,

@@ -12,8 +12,8 @@ import numpy as np
 
 from stronge1994 import ledger
 from stronge1994.csv_tables import Row
-from stronge1994.ledger import finding, outcome
-from stronge1994.ledger.entries import Entry, numbers_in
+from stronge1994.ledger import entries, finding, outcome
+from stronge1994.ledger.entries import Entry
 from stronge1994.ledger.finding import MODELS
 
 # What the checks of `nature` find, by check and model.
@@ -22,16 +22,9 @@ Measured: TypeAlias = dict[str, dict[str, float]]
 
 def measure(every: Mapping[str, Entry]) -> Measured:
     """What the checks find that the claims in nature need; nan where one crashes."""
-    names = [name for entry in every.values() for name in needed(entry.get("in_nature"))]
+    claims = [entry["in_nature"] for entry in every.values() if "in_nature" in entry]
+    names = [name for claim in claims for name in entries.needed(claim)]
     return {name: _of_models(name) for name in dict.fromkeys(names)}
-
-
-def needed(claim: Mapping[str, Any] | None) -> list[str]:
-    """Checks of `nature` that decide a claim, or whose numbers its text quotes."""
-    if claim is None:
-        return []
-    decides = [claim["check"]] if "check" in claim else []
-    return decides + [name for name, _ in numbers_in(claim["says"])]
 
 
 def _of_models(name: str) -> dict[str, float]:
@@ -100,11 +93,8 @@ def _with_nature(row: Row, entry: Entry, measured: Measured) -> Row:
 
 def judge(claim: Mapping[str, Any], measured: Measured) -> str:
     """Why the recorded verdict on a claim in nature no longer holds; empty if it does."""
-    crashed = [
-        name
-        for name in dict.fromkeys(needed(claim))
-        if not np.all(np.isfinite(list(measured[name].values())))
-    ]
+    finite = {name: np.isfinite(list(values.values())).all() for name, values in measured.items()}
+    crashed = [name for name in dict.fromkeys(entries.needed(claim)) if not finite[name]]
     if crashed:
         return f"in nature: {', '.join(crashed)} found no number"
     if "check" not in claim:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from scipy.integrate import cumulative_simpson
 
-from planarimpact import lumped, models, rigid
+from planarimpact import lumped, models
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.results import Event, EventKind, History, Rebound
 from stronge1994.printed import dynamics, slip
@@ -254,13 +254,6 @@ def slip_throughout() -> Iterator[Contact]:
         for e in RESTITUTIONS:
             for factor in (1.001, 1.3, 4.0):
                 yield Contact(factor * (1 + e) * beta, beta, zeta2, e)
-
-
-def with_and_without_compliance(restitutions: Sequence[float]) -> Iterator[tuple[Rebound, Rebound]]:
-    """Rebounds of the paper's sphere from x = (1 + e) beta on, and those of the rigid limit."""
-    for e in restitutions:
-        x = slip.slip_throughout_limit(MASS_RATIO, e) * np.array([1.0, 1.1, 3.0])
-        yield lumped.rebound(x, *SPHERE, e), rigid.rebound(x, MASS_RATIO, restitution=e)
 
 
 def without_micro_slip(incidence: Array) -> Rebound:

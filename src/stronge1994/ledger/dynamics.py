@@ -80,24 +80,17 @@ def restitution(motion: NormalMotion) -> Gaps:
 
 
 @over(contact.normal_motions)
-def normal_velocity(motion: NormalMotion) -> Gaps:
-    """Eqs 6a and 6b against the momentum that the exact normal force has brought."""
-    t = motion.path.t
-    early = motion.printed(dynamics.eq_6a_normal_velocity, t=t)
-    late = motion.printed(dynamics.eq_6b_normal_velocity, t=t)
-    printed = np.where(t <= motion.compression_time, early, late)
-    yield (printed - motion.velocity) / motion.v2
-
-
-@over(contact.normal_motions)
 def table_1(motion: NormalMotion) -> Gaps:
-    """All rows of Table 1 against the exact normal force and its integrals."""
+    """All rows of Table 1, and Eqs 6a and 6b, against the exact normal force and its integrals."""
     t = motion.path.t
     force = motion.printed(dynamics.table_1_force, t=t)
+    early = motion.printed(dynamics.eq_6a_normal_velocity, t=t)
+    late = motion.printed(dynamics.eq_6b_normal_velocity, t=t)
     displacement = motion.printed(dynamics.table_1_displacement, t=t)
     yield (force - motion.path.force_2) / motion.force_scale
     yield (motion.impulse(t) - motion.brought) / motion.compression_impulse
     yield (motion.printed(dynamics.table_1_velocity, t=t) - motion.velocity) / motion.v2
+    yield (np.where(t <= motion.compression_time, early, late) - motion.velocity) / motion.v2
     yield (displacement - motion.displacement) * motion.normal_frequency / motion.v2
 
 

@@ -2,16 +2,15 @@
 
 import re
 import string
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import ledger, reference_data
-from stronge1994.ledger.finding import MODELS, ROUNDED
+from stronge1994.ledger.finding import MODELS
 
 Entry: TypeAlias = dict[str, Any]
 
-KINDS = ({"at_most"}, {"at_least"}, {"value", "rounding"}, {"fact"})
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
 
 
@@ -20,53 +19,54 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
 
     Each has its `kind` (equation or sentence). A wrong one has also `because`, the text of its
     cause. A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance. A
-    `SourceError` names file, field, value and what is allowed.
+    `SourceError` names file, field and value. What contradicts itself otherwise, such as bounds
+    in the wrong order, no longer holds when it is run.
     """
     read = reference_data.load_yaml(path)
     reference_data.refuse_invalid(read, schema, path)
+    facts = reference_data.load_yaml(Path(path).with_name("source.yaml")).get("facts", {})
     entries: dict[str, Entry] = {}
-    facts = _facts(path)
     for kind in ("equations", "sentences"):
         for name, entry in read[kind].items():
             where = f"{path}: {kind}.{name}"
             if name in entries:
                 raise reference_data.SourceError(f"{where}: the name is taken by an equation")
-            _refuse_contradiction(where, entry, "", [entry.get("between", (0, 0))])
-            if "in_nature" in entry:
-                claim, of_claim = entry["in_nature"], f"{where}.in_nature"
-                bounds = claim.get("between", {}).values()
-                _refuse_contradiction(of_claim, claim, "nature.", bounds)
-                _refuse_unmeasured(of_claim, claim["says"])
+            _refuse_unknown_checks(where, entry)
             entries[name] = {"kind": kind[:-1], **_with_fact(where, entry, facts)}
     _explain(path, entries, read["causes"])
     for name, entry in entries.items():
-        texts = entry | {"in_nature": entry.get("in_nature", {}).get("says")}
-        for key, text in texts.items():
-            _refuse_dangling(f"{path}: {name}.{key}", text, entries)
+        for other in REFERENCE.findall(" ".join(map(str, entry.values()))):
+            if other not in entries:
+                raise reference_data.SourceError(f"{path}: {name}: 'see {other}' is no entry")
     return entries
 
 
-def _facts(path: str | Path) -> dict[str, dict[str, float]]:
-    """Stated values of the source.yaml beside a ledger, with tolerances: `{name: confirms}`."""
-    facts = reference_data.load_yaml(Path(path).with_name("source.yaml")).get("facts", {})
-    return {
-        name: {"value": fact["value"], "rounding": fact["tolerance"]}
-        for name, fact in facts.items()
-        if {"value", "tolerance"} <= set(fact)
-    }
+def _refuse_unknown_checks(where: str, entry: Entry) -> None:
+    claim = entry.get("in_nature", {})
+    of_nature = [claim["check"]] if "check" in claim else []
+    of_nature += numbers_in(claim.get("says", ""))
+    asked = [entry["check"]] if "check" in entry else []
+    asked += [f"nature.{name}" for name in of_nature]
+    known = {*ledger.checks(), *(f"{name}.{m}" for name in ledger.checks() for m in MODELS)}
+    for name in asked:
+        if name not in known:
+            raise reference_data.SourceError(
+                f"{where}: '{name}' is no function of stronge1994.ledger"
+            )
 
 
-def _with_fact(where: str, entry: Entry, facts: Mapping[str, dict[str, float]]) -> Entry:
+def _with_fact(where: str, entry: Entry, facts: Mapping[str, Mapping[str, Any]]) -> Entry:
     """An entry with value and tolerance in place of the fact that it names."""
     name = entry.get("confirms", {}).get("fact")
     if name is None:
         return entry
-    if name not in facts:
+    fact = facts.get(name, {})
+    if not {"value", "tolerance"} <= set(fact):
         raise reference_data.SourceError(
-            f"{where}.confirms.fact = '{name}': allowed are the facts of source.yaml with value "
-            f"and tolerance: {', '.join(facts)}"
+            f"{where}.confirms.fact = '{name}': source.yaml has no such fact with value and "
+            "tolerance"
         )
-    return entry | {"confirms": facts[name]}
+    return entry | {"confirms": {"value": fact["value"], "rounding": fact["tolerance"]}}
 
 
 def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, str]) -> None:
@@ -83,52 +83,21 @@ def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, s
         raise reference_data.SourceError(f"{path}: causes.{cause}: no entry has this cause")
 
 
-def _refuse_contradiction(
-    where: str, judged: Entry, module: str, bounds: Iterable[Sequence[float]]
-) -> None:
-    """Refuse an entry, or its claim in nature, whose fields do not go together."""
-    problem, confirms = None, judged.get("confirms", {"at_most": 0})
-    if "check" in judged and module + judged["check"] not in ledger.checks():
-        problem = f".check: '{module}{judged['check']}' is no function of stronge1994.ledger"
-    elif set(confirms) not in KINDS:
-        problem = (
-            f".confirms = {confirms}: allowed are at_most, or at_least, or value with rounding, or "
-            "fact"
-        )
-    elif judged["verdict"] == ROUNDED and not ({"value", "fact"} & set(confirms)):
-        problem = f".confirms = {confirms}: rounding is that of a `value`"
-    for low, high in bounds:
-        if low > high:
-            problem = f".between = [{low}, {high}]: the first number must be the smaller"
-    if problem:
-        raise reference_data.SourceError(where + problem)
-
-
-def _refuse_unmeasured(where: str, text: str) -> None:
-    for name, model in numbers_in(text):
-        if f"nature.{name}" not in ledger.checks() or model not in MODELS:
-            raise reference_data.SourceError(
-                f"{where}.says: '{name}.{model}' is no check of stronge1994.ledger.nature with a "
-                "model"
-            )
-
-
-def numbers_in(text: str) -> list[tuple[str, str]]:
+def numbers_in(text: str) -> list[str]:
     """Checks of `nature`, each with its model, of which a text asks for the number.
 
     >>> numbers_in("{peak_spread.viscous:.2f} mu v2(0)")
-    [('peak_spread', 'viscous')]
+    ['peak_spread.viscous']
     """
-    fields = [name for _, name, _, _ in string.Formatter().parse(text) if name is not None]
-    return [(name, model) for name, _, model in (field.partition(".") for field in fields)]
+    return [name for _, name, _, _ in string.Formatter().parse(text) if name is not None]
+
+
+def needed(claim: Mapping[str, Any]) -> list[str]:
+    """Checks of `nature` that decide a claim, or whose numbers its text quotes."""
+    names = [claim["check"]] if "check" in claim else []
+    return names + [name.partition(".")[0] for name in numbers_in(claim["says"])]
 
 
 def is_run(entry: Entry) -> bool:
     """Whether a run tests something of an entry: a verdict by the equations, or one in nature."""
     return "check" in entry or "check" in entry.get("in_nature", {})
-
-
-def _refuse_dangling(where: str, text: Any, entries: dict[str, Entry]) -> None:
-    for name in REFERENCE.findall(text) if isinstance(text, str) else ():
-        if name not in entries:
-            raise reference_data.SourceError(f"{where}: 'see {name}': there is no such entry")

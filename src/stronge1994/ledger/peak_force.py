@@ -57,14 +57,9 @@ def normal(impact: Contact) -> Gaps:
 
 @over(contact.initial_stick)
 def stick(impact: Contact) -> Gaps:
-    """Eq. 29 against the exact peak of friction, initial stick."""
+    """Eqs 29 and 30 against the exact peak of friction, initial stick."""
     peak = impact.rebound.peak_friction * impact.friction_scale
     yield impact.printed(peak_force.eq_29_friction) / peak - 1
-
-
-@over(contact.initial_stick)
-def stick_over_speed(impact: Contact) -> Gaps:
-    """Eq. 30 against the exact peak of friction, initial stick."""
     yield _gap(impact, peak_force.eq_30_friction)
 
 
@@ -183,18 +178,11 @@ def compliance_reduces() -> Finding:
 
 @over(lambda: contact.PAIRS)
 def restitution_immaterial(pair: tuple[float, float]) -> Gaps:
-    r"""Change of the peak of friction with $e$, $\omega > \Omega$."""
+    r"""Change of the peak of friction with $e$, $\omega > \Omega$.
+
+    From $e = 0$ on, where there is compression alone.
+    """
     yield np.ptp(lumped.rebound(INCIDENCE, *pair, RESTITUTIONS).peak_friction, axis=0)
-
-
-def in_compression() -> Finding:
-    """Largest excess of the peak of friction over that of compression alone, $e = 0$."""
-    excess = [
-        lumped.rebound(INCIDENCE, *pair, RESTITUTIONS).peak_friction
-        - lumped.rebound(INCIDENCE, *pair, 0.0).peak_friction
-        for pair in contact.PAIRS
-    ]
-    return Finding(float(np.max(excess)))
 
 
 def _slip_stick_slip(number: int, samples: int) -> list[Contact]:

@@ -8,7 +8,7 @@ import numpy as np
 from planarimpact import bodies, continuum, lumped, rigid
 from planarimpact.continuum import ContinuumHistory
 from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.ground.results import Regime
 from planarimpact.models import laws
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import ELASTIC_LIMIT, HARD, INCIDENCE, Contact, boundary
@@ -181,13 +181,6 @@ def rigid_sequence() -> Finding:
     x = slip.slip_throughout_limit(beta, e) * np.linspace(0.001, 0.999, 50)
     regime = rigid.rebound(x, beta, restitution=e).regime
     return Finding(float(np.mean(regime != Regime.SLIP_STICK)))
-
-
-@over(lambda: contact.with_and_without_compliance((0.0, *contact.RESTITUTIONS)))
-def unaffected_velocity(rebounds: tuple[Rebound, Rebound]) -> Gaps:
-    r"""Difference that tangential compliance makes to the velocity above $x = (1 + e) \beta$."""
-    soft, hard = rebounds
-    yield soft.velocity - hard.velocity
 
 
 def _velocities() -> list[Array]:

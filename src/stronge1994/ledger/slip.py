@@ -148,15 +148,10 @@ def onset_of_second_slip(impact: Contact) -> Gaps:
 
 
 @over(contact.reversed_after_slip)
-def final_velocity_after_second_slip(impact: Contact) -> Gaps:
-    """Eq. 24 against the exact rebound, where the last slip reverses ($s = +1$)."""
-    yield (impact.printed(slip.eq_24_final_velocity) - impact.final) / impact.velocity_scale
-
-
-@over(contact.reversed_after_slip)
 def rebound_after_second_slip(impact: Contact) -> Gaps:
-    """Eq. 25 against the exact rebound, where the last slip reverses ($s = +1$)."""
+    """Eqs 24 and 25 against the exact rebound, where the last slip reverses ($s = +1$)."""
     scale, share = impact.velocity_scale, impact.impulse(impact.t3) / impact.compression_impulse
+    yield (impact.printed(slip.eq_24_final_velocity) - impact.final) / scale
     printed = impact.printed(slip.eq_25_rebound, v1_t3=impact.v1_t3 / scale, impulse_share=share)
     yield printed - impact.final / scale
 
@@ -199,7 +194,7 @@ def _slips_throughout_from(mass_ratio: float, stiffness_ratio: float, restitutio
 def slip_throughout_limit(place: tuple[tuple[float, float], float]) -> tuple[ArrayLike, float]:
     r"""The printed limit $(1 + e) \beta$ less the one found by bisection of regimes, in $x$.
 
-    Corrected, by Eqs 17 to 20: $\beta + \max(0, e \beta - \zeta^2/e)$.
+    Corrected, by Eqs 17 to 20: $\beta + \mathrm{max}(0, e \beta - \zeta^2/e)$.
     """
     (beta, zeta2), e = place
     exact = _slips_throughout_from(beta, zeta2, e)

@@ -14,7 +14,7 @@ import numpy as np
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns, Curves, Row
 from stronge1994.figures.inelastic import trials as inelastic
-from stronge1994.figures.shared.drawing.lossy import MODELS
+from stronge1994.figures.shared.drawing.beside import MODELS
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import ledger_page
 from stronge1994.verdict_tables import verdict_table
@@ -87,7 +87,7 @@ def _pairs(curves: Curves, measured: Columns) -> Numbers:
     """The measured pairs of materials, and chi-squared of each model in each trial of the figure.
 
     `failed` is the number of spreads of impacts with which a model fails; `least` and `most` are
-    its smallest and largest chi-squared over them. `soft` and `hard` are beta_0 of two pairs.
+    its smallest and largest chi-squared over them. `soft` is beta_0 of one pair.
     """
     trials = inelastic.trials(curves)
     spreads = [trial for trial in trials.values() if not trial.without and trial.share == 1]
@@ -108,16 +108,12 @@ def _pairs(curves: Curves, measured: Columns) -> Numbers:
     alone = inelastic.Trial(without=[pair for pair in measured["pair"] if pair != SOFT])
     share = inelastic.goodness(curves, "lumped.hysteretic", measured, alone)
     numbers[f"pairs.lumped.hysteretic.{SOFT}.chi2"] = share.value
-    for part, without in (("", []), (".without", [SOFT])):
-        slope, sigma = inelastic.slope(measured, without)
-        numbers |= {f"pairs.slope{part}": slope, f"pairs.slope{part}.sigma": sigma}
-    for name, pair in (("soft", SOFT), ("hard", HARD)):
-        row = int(np.flatnonzero(measured["pair"] == pair)[0])
-        numbers[f"pairs.{name}.measured"] = measured[BETA_0][row]
-        numbers[f"pairs.{name}.sigma"] = measured[inelastic.SIGMA][row]
-        for model in MODELS:
-            own = curves[f"{model}, pairs"]
-            numbers[f"pairs.{name}.{model}"] = own[BETA_0][own["pair"] == pair][0]
+    row = int(np.flatnonzero(measured["pair"] == SOFT)[0])
+    numbers["pairs.soft.measured"] = measured[BETA_0][row]
+    numbers["pairs.soft.sigma"] = measured[inelastic.SIGMA][row]
+    for model in MODELS:
+        own = curves[f"{model}, pairs"]
+        numbers[f"pairs.soft.{model}"] = own[BETA_0][own["pair"] == SOFT][0]
     return numbers
 
 

@@ -31,12 +31,15 @@ WITHOUT_ANSWERS = Config(
 )
 # A paragraph that is only a link to the stage of the explorer, or only a picture that is a file.
 # `?stage=micro` opens the stage at the instant of micro-slip.
-STAGE = re.compile(r"^\[([^]]+)\]\((explorer\.html)(\?stage(?:=micro)?)(#\S+)\)$", re.M)
-FRAME = r"""<figure class="play">
-<iframe src="\2\3\4" title="Play it" loading="lazy"></iframe>
+STAGE = re.compile(
+    r"^\[(?P<words>[^]]+)\]\((?P<page>explorer\.html)(?P<stage>\?stage(?:=micro)?)(?P<state>#\S+)\)$",
+    re.M,
+)
+FRAME = """<figure class="play">
+<iframe src="{page}{stage}{state}" title="{title}" loading="lazy"></iframe>
 <figcaption>
 
-\1. [Open in the explorer](\2\4)
+{words}. [Open in the explorer]({page}{state})
 
 </figcaption>
 </figure>"""
@@ -99,7 +102,7 @@ def on_a_page(source: str, folder: Path) -> str:
 
     >>> print(on_a_page("[Play](../../figures/explorer.html?stage#angle=5)", Path()))
     <figure class="play">
-    <iframe src="explorer.html?stage#angle=5" title="Play it" loading="lazy"></iframe>
+    <iframe src="explorer.html?stage#angle=5" title="Play" loading="lazy"></iframe>
     <figcaption>
     <BLANKLINE>
     Play. [Open in the explorer](explorer.html#angle=5)
@@ -110,7 +113,10 @@ def on_a_page(source: str, folder: Path) -> str:
     'The velocity <span class="velocity">*v*₁</span>\\xa0=\\xa07'
     """
     # A notebook lies two folders below the one that holds those of the pages.
-    source = STAGE.sub(FRAME, source.replace("../../figures/", ""))
+    source = STAGE.sub(
+        lambda link: FRAME.format(title=link["words"].replace("*", ""), **link.groupdict()),
+        source.replace("../../figures/", ""),
+    )
     source = DRAWING.sub(lambda found: (folder / found[1]).read_text(encoding="utf-8"), source)
     for name, symbol in SYMBOLS.items():
         source = re.sub(symbol, rf'<span class="{name}">\g<0></span>', source)

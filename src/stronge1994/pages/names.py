@@ -1,57 +1,65 @@
-"""Names in words, for readers, of what tables and addresses call by an identifier."""
+"""Names in words, for readers, of what tables, folders and addresses call by an identifier."""
 
 import re
 
-# Models and references in the names of comparisons; longer ones come before those that begin them.
-WORDS = {
-    "lumped.unloading-stiffness": r"the paper's model with $e^2 \zeta^2$",
-    "lumped.viscous": "two Kelvin-Voigt elements",
-    "lumped.hysteretic": "the paper's model",
-    "lumped": "the paper's model",
-    "continuum.plastic-elastic-shear": "plastic continuum, elastic in shear",
-    "continuum.plastic": "plastic continuum",
-    "continuum.viscous": "viscous continuum",
-    "continuum": "elastic continuum",
-    "flows-in-shear": "plastic continuum",
-    "contraction": "two impacts come nearer to each other",
-    "maw": "Maw et al.",
-    "fem": "finite elements",
-    "exact": "second solution",
-    "solved": "solved without error",
-    "slip-throughout": "slip throughout",
-    "initial-stick-limit": "limit of initial stick",
-    "initial-stick": "initial stick",
-    "slip-and-stick": "slip and stick",
-    "experiment": "experiment",
-    "order": "observed order",
-    "peak-angle": "angle of the largest friction",
-    "tangential-restitution": "tangential restitution",
-    "rubber-sphere": "rubber sphere",
-    "rubber": "rubber",
-    "pushed": "pushed contact",
-    "dissimilar": "unlike bodies",
-    "pairs": "pairs of materials",
-}
-PARTS = re.compile(rf"(?:^|(?<=-))({'|'.join(map(re.escape, WORDS))}|(?:nu|mu|e)-\d[\d.]*)(?=-|$)")
-SYMBOL = re.compile(r"(?:^|[-_])(nu|mu|e)[-_](\d[\d.]*)")
+from stronge1994.curve_names import SCENE, is_of_paper
+
 YEAR = re.compile(r"(?<=[a-z])(?=(?:19|20)\d\d$)")
+GREEK = {"mu": "μ", "nu": "ν"}
+# Units whose names in tables a reader would not understand.
+UNITS = {
+    "1": "",
+    "us": "µs",
+    "deg": "°",
+    "kg/m^3": "kg/m³",
+    "t_c": "$t_c$",
+    "1/Omega": r"$1/\Omega$",
+    "v2(0)": "$v_2(0)$",
+    "v2(0)/Omega": r"$v_2(0)/\Omega$",
+    "mu v2(0)": r"$\mu v_2(0)$",
+    "mu v2(0)/R": r"$\mu v_2(0)/R$",
+    "F2max": r"$F_{2\mathrm{max}}$",
+    "mu F2max": r"$\mu F_{2\mathrm{max}}$",
+    "m2 Omega S": r"$m_2 \Omega S$",
+    "m2 Omega v2(0)": r"$m_2 \Omega v_2(0)$",
+    "mu m2 Omega v2(0)": r"$\mu m_2 \Omega v_2(0)$",
+    "m2 S^2/2": "$m_2 S^2/2$",
+    "mu^2 m2 v2(0)^2": r"$\mu^2 m_2 v_2(0)^2$",
+    "K0": "$K_0$",
+    "a_max": r"$a_{\mathrm{max}}$",
+    "delta_max": r"$\delta_{\mathrm{max}}$",
+}
 
 
-def _equation(found: re.Match[str]) -> str:
-    return f"${found[1] if found[1] == 'e' else chr(92) + found[1]} = {found[2]}$"
+def words(identifier: str) -> str:
+    """The words of an identifier, with Greek letters.
+
+    >>> words("contact-nu-0.3"), words("peak_over_mu_normal")
+    ('contact ν 0.3', 'peak over μ normal')
+    """
+    return " ".join(GREEK.get(word, word) for word in re.split("[-_]", identifier))
+
+
+def figure(name: str) -> str:
+    """Name of a figure.
+
+    >>> figure("fig5"), figure("micro_slip")
+    ('Fig. 5', 'Micro slip')
+    """
+    if is_of_paper(name):
+        return f"Fig. {name.removeprefix('fig')}"
+    if name.startswith(SCENE):
+        return f"Scene: {words(name.removeprefix(SCENE))}"
+    return words(name).capitalize()
 
 
 def comparison(name: str) -> str:
-    r"""Name of a comparison, without the figure that its identifier begins with.
+    """Name of a comparison, without the figure that its identifier begins with.
 
     >>> comparison("fig5-continuum.viscous-experiment-initial-stick")
-    'viscous continuum, experiment, initial stick'
-    >>> comparison("yielding-dissimilar-nu-0.45"), comparison("scene-shot-peening")
-    ('unlike bodies, $\\nu = 0.45$', 'shot peening')
+    'continuum.viscous experiment initial stick'
     """
-    parts = [part.strip("-") for part in PARTS.split(name.partition("-")[2])]
-    words = [WORDS.get(part) or SYMBOL.sub(_equation, part).replace("-", " ") for part in parts]
-    return ", ".join(filter(None, words))
+    return words(name.partition("-")[2])
 
 
 def source(name: str) -> str:
@@ -63,20 +71,17 @@ def source(name: str) -> str:
     authors, *year = YEAR.split(name)
     if year:
         return f"{' & '.join(map(str.capitalize, authors.split('_')))} {year[0]}"
-    return name.replace("_", " ").capitalize()
+    return words(name).capitalize()
 
 
 def series(name: str) -> str:
-    r"""Name of a series or a fact of a source.
+    """Name of a series or a fact of a source.
 
-    >>> series("maw1976/rebound_nu_0.3"), series("closed_forms/fig7_peak_force")
-    ('Maw 1976: rebound, $\\nu = 0.3$', 'Closed forms: Fig. 7, peak force')
+    >>> series("maw1976/rebound_nu_0.3")
+    'Maw 1976: rebound ν 0.3'
     """
     folder, _, part = name.partition("/")
-    part = re.sub(
-        r"^fig(\d)_", r"Fig. \1, ", SYMBOL.sub(lambda found: f", {_equation(found)}", part)
-    )
-    return f"{source(folder)}: {part.replace('_', ' ')}"
+    return f"{source(folder)}: {words(part)}"
 
 
 def entry(name: str) -> str:
@@ -86,6 +91,27 @@ def entry(name: str) -> str:
     ('Eq. 32 late', 'slip throughout limit')
     """
     return re.sub(r"^eq-0?", "Eq. ", name).replace("-", " ")
+
+
+def column(name: str) -> str:
+    r"""Name of a column of a table, with its unit after a comma.
+
+    >>> column("largest_error [mu v2(0)]"), column("restitution [1]")
+    ('largest error, $\\mu v_2(0)$', 'restitution')
+    """
+    quantity, _, unit_name = name.rstrip("]").partition(" [")
+    written = UNITS.get(unit_name, unit_name)
+    return words(quantity) + (f", {written}" if written else "")
+
+
+def unit(name: str) -> str:
+    r"""What stands behind a number: a space and a unit, or the sign of degrees.
+
+    >>> unit("mu v2(0)"), unit("N"), unit("deg"), unit("1")
+    (' $\\mu v_2(0)$', ' N', '°', '')
+    """
+    written = UNITS.get(name, name)
+    return f" {written}" if written not in ("", "°") else written
 
 
 def sentence(text: str) -> str:

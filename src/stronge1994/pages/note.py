@@ -10,8 +10,7 @@ from typing import Any
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
 from stronge1994.curve_names import is_of_paper
-from stronge1994.formulas import mathematical, number
-from stronge1994.pages import headers, key_numbers, names, templates
+from stronge1994.pages import key_numbers, templates
 from stronge1994.verdict_tables import figure_table, verdict_table
 
 # Models below e = 1, in the order of the note.
@@ -53,17 +52,7 @@ def page(
 ) -> str:
     """The note as a page, from key numbers, rows of verdicts, and SVG by their figures."""
     environment = templates.environment(Path(template).parent)
-    environment.filters |= {
-        "probability": probability,
-        "count": count,
-        "entry_name": names.entry,
-        "maths": mathematical,
-        "number": number,
-        "sentence": names.sentence,
-        "source_name": names.source,
-        "title_of": templates.title,
-        "unit": headers.unit,
-    }
+    environment.filters |= {"probability": probability, "count": count}
     return environment.get_template(Path(template).name).render(
         n=numbers,
         models=MODELS,

@@ -20,12 +20,10 @@ from stronge1994.csv_tables import Row
 from stronge1994.curve_names import is_of_paper
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
-from stronge1994.formulas import mathematical, number, plain
+from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
-    headers,
-    impact_times,
     key_numbers,
     ledger_page,
     names,
@@ -66,8 +64,7 @@ MEANING = {
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
 # Tables with a section of the report; their captions stand in files of the same names.
-SECTIONS = ("which_model", "trade", "stability")
-NO_TIMES: TemplateValues = {"rows": [], "absent": []}
+SECTIONS = ("which_model", "trade")
 
 
 class Salvage:
@@ -111,16 +108,6 @@ def page(values: TemplateValues, template: str | Path) -> str:
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
         "measured": measured,
-        "comparison_name": names.comparison,
-        "series_name": names.series,
-        "source_name": names.source,
-        "entry_name": names.entry,
-        "number": number,
-        "microseconds": lambda seconds: number(f"{1e6 * float(seconds)}"),
-        "header": headers.header,
-        "sentence": names.sentence,
-        "title_of": templates.title,
-        "unit": headers.unit,
     }
     environment.tests["in_paper"] = is_of_paper
     return environment.get_template(Path(template).name).render(
@@ -141,7 +128,7 @@ def page(values: TemplateValues, template: str | Path) -> str:
 def measured(row: Row) -> Markup:
     """How large the distance of a row of the verdict table is, its unit as a formula."""
     value, _, unit = row["stated"].partition(" ")
-    shown = {"stated": f"{value}{headers.unit(unit)}", "unit": headers.unit(row["unit"]).strip()}
+    shown = {"stated": f"{value}{names.unit(unit)}", "unit": names.unit(row["unit"]).strip()}
     return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
 
 
@@ -166,7 +153,7 @@ def figure(
     rows = [row for row in verdicts if row["figure"] == name]
     strips = draw_residuals.strips(residuals, {row["comparison"]: row for row in rows})
     return {
-        "title": templates.title(name),
+        "title": names.figure(name),
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
@@ -211,11 +198,11 @@ def write(
 ) -> None:
     """Read the tables and pictures of a run; write the report, its sources, and its own problems.
 
-    `paths` are the files of the tables: `verdicts`, `ledger`, `key_numbers`, those of `SECTIONS`,
-    and `peers` where other codes were measured. `records` are those of the jobs that made all this.
-    Captions of tables stand in files beside the template. `settings` are those of the rule:
-    `captions` of the figures, `config`, the contents of data/*/source.yaml as `sources`, and the
-    rows that `gate.faults_of_tables` asks for. A page that cannot be made is not written.
+    `paths` are the files of the tables `verdicts`, `ledger`, `key_numbers` and `which_model`;
+    captions of tables stand in files beside the template. `records` are those of the jobs that made
+    all this. `settings` are those of the rule: `captions` of the figures, `config`, the contents of
+    data/*/source.yaml as `sources`, and the rows that `gate.faults_of_tables` asks for. A page that
+    cannot be made is not written.
     """
     salvage, read, config = Salvage(), csv_tables.read_rows, settings["config"]
     rows = salvage("verdicts", [], read, paths["verdicts"], verdict_table.COLUMNS)
@@ -232,19 +219,15 @@ def write(
     def caption(name: str) -> str:
         return Path(template).with_name(f"{name}.rst").read_text(encoding="utf-8").strip()
 
-    figures = {name: salvage(templates.title(name), None, section, name) for name in svgs}
-    which, trade, peers = (
-        salvage(name, [], read, paths[name]) if name in paths else []
-        for name in ("which_model", "trade", "peers")
-    )
+    figures = {name: salvage(names.figure(name), None, section, name) for name in svgs}
+    answers = salvage("which_model", [], read, paths["which_model"])
     run = run_facts.of_run()
     values = {
         "verdicts": rows,
         "ledger": [row for row in ledger if row["verdict"] in ledger_page.STYLE],
         "figures": {name: part for name, part in figures.items() if part},
         "captions": {name: caption(name) for name in SECTIONS},
-        "cases": salvage("which_model", [], which_model.cases, which),
-        "times": salvage("times", NO_TIMES, impact_times.section, trade, peers),
+        "cases": salvage("which_model", [], which_model.cases, answers),
         "n": salvage("key numbers", {}, key_numbers.read, paths["key_numbers"]),
         "significance": config["significance"],
         "run": run,

@@ -13,12 +13,10 @@ def write(
     notebooks: Iterable[str],
     texts: Iterable[str],
     readme: str,
-    start: str,
 ) -> None:
     """Copy pages (files and folders of figures/), notebooks and texts, and write README.txt.
 
-    `start` is the template of the start page, which links to the interface here: only the site has
-    it.
+    The start page links to the interface here: only the site has it.
     """
     site = Path(folder)
     (site / "notebooks").mkdir(parents=True)
@@ -30,7 +28,7 @@ def write(
         else:
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(path, copy)
-    page = templates.environment(Path(start).parent).get_template(Path(start).name)
+    page = templates.environment(templates.SHARED).get_template("index.html")
     text = page.render(interface="interface/planarimpact.html")
     (site / "index.html").write_text(text, encoding="utf-8")
     for text in texts:

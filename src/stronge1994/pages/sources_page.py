@@ -1,13 +1,13 @@
 """Page of the sources of data, settings, versions and times of a run."""
 
+import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from stronge1994.formulas import mathematical, number
-from stronge1994.pages import headers, names, templates
+from stronge1994.pages import templates
 
 # Settings that all figures share.
 SHARED = ("mass_ratio", "stiffness_ratio", "significance")
@@ -27,14 +27,6 @@ def page(
         for figure, entry in config["figures"].items()
     }
     environment = templates.environment(Path(template).parent)
-    environment.filters |= {
-        "maths": mathematical,
-        "header": headers.header,
-        "unit": headers.unit,
-        "number": number,
-        "title_of": templates.title,
-        "source_name": names.source,
-    }
     return environment.get_template(Path(template).name).render(
         sources=sources,
         shared={key: config[key] for key in SHARED},
@@ -43,18 +35,13 @@ def page(
     )
 
 
-class _Dumper(yaml.SafeDumper):
-    """Without the anchors that two equal entries would get."""
-
-    def ignore_aliases(self, data: Any) -> bool:
-        return True
-
-
 def in_yaml(document: Any) -> str:
     """A part of the config as it stands in its files.
 
     >>> print(in_yaml({"restitution": [0.5, 1]}), end="")
     restitution: [0.5, 1]
     """
-    style = {"sort_keys": False, "default_flow_style": None, "width": 96, "allow_unicode": True}
-    return yaml.dump(document, Dumper=_Dumper, **style)
+    copy = json.loads(json.dumps(document))  # equal parts of one document would get anchors
+    return yaml.safe_dump(
+        copy, sort_keys=False, default_flow_style=None, width=96, allow_unicode=True
+    )

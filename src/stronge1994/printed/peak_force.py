@@ -5,18 +5,13 @@ import numpy as np
 from planarimpact.ground.arrays import Array, Numbers
 
 
-def _cosine(slope: Numbers) -> Array:
-    """[1 + (v1(0)/v2(0))^2]^(-1/2) of the ratio of velocities."""
-    return (1 + np.square(slope)) ** -0.5
-
-
 def eq_28_normal(slope: Numbers) -> Array:
     """Eq. 28: F2max/(m2 Omega S), from slope = v1(0)/v2(0).
 
     >>> float(eq_28_normal(0.75))
     0.8
     """
-    return _cosine(slope)
+    return (1 + np.square(slope)) ** -0.5
 
 
 def eq_29_friction(v1: Numbers, m1: Numbers, tangential_frequency: Numbers) -> Numbers:
@@ -34,7 +29,7 @@ def eq_30_friction(slope: Numbers, mass_ratio: Numbers, stiffness_ratio: Numbers
     >>> round(float(eq_30_friction(0.75, 4.0, 1.0)), 12)
     0.3
     """
-    return np.sqrt(1 / (stiffness_ratio * mass_ratio)) * slope * _cosine(slope)
+    return np.sqrt(1 / (stiffness_ratio * mass_ratio)) * slope * eq_28_normal(slope)
 
 
 def eq_31_friction(
@@ -55,7 +50,7 @@ def eq_31_friction(
     """
     angle = frequency_ratio * elapsed
     swing = velocity / frequency_ratio * np.sin(angle)
-    return friction / stiffness_ratio * _cosine(slope) * (stretch * np.cos(angle) + swing)
+    return friction / stiffness_ratio * eq_28_normal(slope) * (stretch * np.cos(angle) + swing)
 
 
 def eq_32_start(
@@ -75,7 +70,7 @@ def eq_33_friction(slope: Numbers, friction: Numbers) -> Array:
     >>> float(eq_33_friction(0.75, 0.5))
     0.4
     """
-    return friction * _cosine(slope)
+    return friction * eq_28_normal(slope)
 
 
 def eq_34_friction(slope: Numbers, friction: Numbers, mass_ratio: Numbers) -> Array:
@@ -84,7 +79,7 @@ def eq_34_friction(slope: Numbers, friction: Numbers, mass_ratio: Numbers) -> Ar
     >>> float(eq_34_friction(0.0, 0.5, 3.5))
     0.0
     """
-    return friction * np.sin(np.arccos(1 - slope / (friction * mass_ratio))) * _cosine(slope)
+    return friction * np.sin(np.arccos(1 - slope / (friction * mass_ratio))) * eq_28_normal(slope)
 
 
 def eq_35_friction(slope: Numbers, friction: Numbers) -> Array:
@@ -93,4 +88,4 @@ def eq_35_friction(slope: Numbers, friction: Numbers) -> Array:
     >>> float(eq_35_friction(0.75, 0.5))
     0.4
     """
-    return friction * _cosine(slope)
+    return friction * eq_28_normal(slope)

@@ -160,7 +160,8 @@ def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
     )
     if errors:
         where = ".".join(map(str, errors[0].path)) or "top level"
-        known = errors[0].schema.get("properties", {})
+        broken = errors[0].schema if isinstance(errors[0].schema, dict) else {}  # else a bool
+        known = broken.get("properties", {})
         allowed = f"; allowed are {', '.join(known)}" if "unexpected" in errors[0].message else ""
         if errors[0].validator == "minLength":
             allowed = f"; allowed are texts of {errors[0].validator_value} characters or more"

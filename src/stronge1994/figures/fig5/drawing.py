@@ -5,7 +5,6 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from planarimpact import Regime
 from planarimpact.ground.arrays import Array, ArrayLike
@@ -15,20 +14,34 @@ from stronge1994.figures.shared.drawing.house_style import Entries, Points, Seri
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 # Drawn below the paper's curves, with which these coincide where the contact slips throughout.
-RUBBER = {"color": house_style.GREEN, "linewidth": 1.0, "zorder": 1.9}
+RUBBER: Style = {"color": house_style.GREEN, "linewidth": 1.0, "zorder": 1.9}
 SOFT_CONTINUUM = RUBBER | {"linestyle": house_style.DASHES[1]}
-RUBBER_SPHERE = "johnson1983/rubber_sphere"
-RUBBER_POINTS: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
-# Measured with loss, and so not on the curves, which have e = 1.
-LOSSY_RUBBER = "cross2014/impacts"
-LOSSY_POINTS: Style = {"color": house_style.GREEN, "marker": "o", "markerfacecolor": "white"}
-ELEMENT_POINTS: Style = {"color": house_style.VERMILLION, "marker": "s", "markerfacecolor": "white"}
-GLASS_POINTS: Style = {"color": house_style.BLUE, "marker": "o", "markersize": 3}
+POINT: Style = {"marker": "o", "markerfacecolor": "white"}
+IN_PAPER = {
+    "johnson1983/rubber_sphere": ("rubber sphere (Johnson)", POINT | {"color": house_style.BLACK})
+}
+LOSSY_RUBBER = "cross2014/impacts"  # measured with loss, and so not on the curves, which have e = 1
+ADDED = {
+    "chung_ooi2011/rebound": (
+        "finite elements (Chung & Ooi)",
+        POINT | {"color": house_style.VERMILLION, "marker": "s"},
+    ),
+    LOSSY_RUBBER: (
+        r"rubber sphere (Cross 2014), $e \approx 0.9$",
+        POINT | {"color": house_style.GREEN},
+    ),
+}
 # These points are measured against the angle: they must be converted to the axes of the figure.
 MEASURED_ANGLES = "kharaz2001/tangential_restitution"
+SHOTS = {
+    MEASURED_ANGLES: (
+        "measured (Kharaz et al.)",
+        {"color": house_style.BLUE, "marker": "o", "markersize": 3},
+    )
+}
 
 
-def drawn_series(name: str, series: Series) -> Series:
+def _converted(name: str, series: Series) -> Series:
     """Measurements against the angle, converted to the axes of the figure with their errors."""
     if name == LOSSY_RUBBER:
         return series | _turned_round(series)
@@ -40,9 +53,7 @@ def drawn_series(name: str, series: Series) -> Series:
     x, y = contact_velocities(angle, ratio, *groups)
     by_angle = np.subtract(contact_velocities(angle + angle_error, ratio, *groups), (x, y))
     by_ratio = np.subtract(contact_velocities(angle, ratio + ratio_error, *groups), (x, y))
-    columns = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-    sigma = np.hypot(by_angle, by_ratio)
-    return {"x": x, "y": y, "sigma": sigma, "line": False, "axes": columns}
+    return series | {"x": x, "y": y, "sigma": np.hypot(by_angle, by_ratio), "axes": (X, Y)}
 
 
 def _turned_round(series: Series) -> Series:
@@ -74,124 +85,63 @@ def contact_velocities(
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) the paper's curves and series, and additions; (b) an experiment with its models."""
+    points = {name: _converted(name, series) for name, series in points.items()}
     figure = house_style.new(7.0)
     axes, shots = figure.subplots(2, 1, sharex=True, height_ratios=[5, 3.4])
     printed = (1 + settings["restitution"]) * settings["mass_ratio"]
-    # As wide as in the paper, 8 with the printed limit at 7; wider if the limit is larger.
-    left, end = settings["incidence"]
-    wide = max(8.0, printed * 8 / 7)
-    right = wide if left < wide < end else end
-    paper = _draw_paper(axes, curves, points, settings)
-    added = _draw_added(axes, curves, points, settings)
-    experiment = _draw_experiment(shots, curves, points, settings)
-    axes.set(xlim=(left, right), ylabel=f"(a) {house_style.REBOUND}")
-    axes.set_ylim(*_range(curves["lumped"], right, (-3.0, 2.0)))
-    shots.set(xlabel=house_style.INCIDENCE, ylabel=f"(b) {house_style.REBOUND}")
-    shots.set_ylim(*_range(curves["lumped.hysteretic, experiment"], right, (-2.0, 1.0)))
-    if RUBBER_SPHERE in points:
-        house_style.let_in(axes, points[RUBBER_SPHERE])
-    _draw_regimes(axes, curves["lumped"], right)
-    _draw_printed_limit(axes, printed)
-    frequency = math.sqrt(settings["mass_ratio"] / settings["stiffness_ratio"])
-    groups = [settings["experiment"][key] for key in ("restitution", "stiffness_ratio")]
-    for part, title in (
-        (axes, rf"$e = {settings['restitution']:g}$,  $\omega/\Omega = {frequency:.2f}$"),
-        (shots, rf"$e = {groups[0]:g}$,  $\zeta^2 = {groups[1]:g}$"),
-    ):
-        part.text(0.97, 0.06, title, ha="right", transform=part.transAxes)
-    gaps = [""] * (2 + len(paper) - len(added))
-    house_style.legend_below(
-        figure,
-        ["(a) in the paper", *paper, "", "(b) added here", *experiment[:2]],
-        ["(a) added here", *added, *gaps, *experiment[2:]],
-    )
+    # As wide as in the paper, 8 with the printed limit at 7.
+    left, right = settings["incidence"][0], min(settings["incidence"][1], printed * 8 / 7)
+    paper, added = _draw_paper(axes, curves, points, settings, printed)
+    experiment = _draw_experiment(shots, curves, points, settings["experiment"])
+    for panel, name in ((axes, "lumped"), (shots, "lumped.hysteretic, experiment")):
+        drawn = curves[name][Y][curves[name][X] <= right]
+        panel.set(xlim=(left, right), ylim=(drawn.min() - 1, drawn[-1] + 1))
+    house_style.name_spans(axes, _regimes(curves["lumped"], right))
+    house_style.letter([axes, shots])
+    columns = [[*paper, "(b) added here", *experiment[:2]], [*added, "", *experiment[2:]]]
+    house_style.legend_below(figure, *columns, titles=("(a) in the paper", "(a) added here"))
     return figure
 
 
-def _draw_paper(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
-    """Draw what the paper's figure holds, and return entries of the legend."""
+def _draw_paper(
+    axes: Axes, curves: Curves, points: Points, settings: Settings, printed: float
+) -> tuple[Entries, Entries]:
+    """Draw what the paper's figure holds, and what we add; entries of the legend for both."""
+    frequency = math.sqrt(settings["mass_ratio"] / settings["stiffness_ratio"])
+    axes.set_title(rf"$e = {settings['restitution']:g}$,  $\omega/\Omega = {frequency:.2f}$")
+    rubber = rf"rubber, $\zeta^2 = {settings['rubber']['stiffness_ratio']:g}$"
     lumped = rf"lumped model, $\zeta^2 = {settings['stiffness_ratio']:g}$"
-    rough = curves["no tangential compliance"]
-    entries = [
-        _draw_curve(axes, curves["lumped"], lumped, house_style.LUMPED),
-        _draw_curve(
-            axes, curves["continuum"], "elastic continuum, computed here", house_style.CONTINUUM
-        ),
-        _draw_curve(axes, rough, "no tangential compliance", house_style.RIGID),
+    lines = [
+        house_style.line(axes, curves, name, X, Y, label=label, **style)
+        for name, label, style in (
+            ("lumped", lumped, house_style.LUMPED),
+            ("continuum", "elastic continuum, computed here", house_style.CONTINUUM),
+            ("no tangential compliance", "no tangential compliance", house_style.RIGID),
+            ("lumped, rubber", f"lumped model, {rubber}", RUBBER),
+            ("continuum, rubber", f"continuum, {rubber}", SOFT_CONTINUUM),
+        )
     ]
-    series = {RUBBER_SPHERE: ("rubber sphere (Johnson)", RUBBER_POINTS)}
-    return entries + house_style.references(axes, points, series)
+    # The paper's limit of slip throughout, (1 + e) m2/m1, against its Eqs 17 to 20.
+    limit = axes.axvline(printed, label="slip throughout as printed", **house_style.PRINTED)
+    paper = [*lines[:3], limit, *house_style.references(axes, points, IN_PAPER)]
+    added = [*lines[3:], *house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")]
+    return paper, added + house_style.references(axes, points, ADDED)
 
 
-def _draw_added(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
-    """Draw what this repository adds to the paper's figure, and return entries of the legend."""
-    rubber, curve = (
-        rf"rubber, $\zeta^2 = {settings['rubber']['stiffness_ratio']:g}$",
-        curves["lumped, rubber"],
-    )
-    lowest = int(curve[Y].argmin())
-    place = {
-        "textcoords": "offset points",
-        "ha": "center",
-        "va": "top",
-        "fontsize": house_style.NOTE,
-    }
-    axes.annotate(
-        "rubber", (curve[X][lowest], curve[Y][lowest]), (0, -4), color=house_style.GREEN, **place
-    )
-    entries = [
-        _draw_curve(axes, curve, f"lumped model, {rubber}", RUBBER),
-        _draw_curve(axes, curves["continuum, rubber"], f"continuum, {rubber}", SOFT_CONTINUUM),
-    ]
-    entries += house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
-    series = {"chung_ooi2011/rebound": ("finite elements (Chung & Ooi)", ELEMENT_POINTS)}
-    series[LOSSY_RUBBER] = (r"rubber sphere (Cross 2014), $e \approx 0.9$", LOSSY_POINTS)
-    return entries + house_style.references(axes, points, series)
-
-
-def _draw_experiment(axes: Axes, curves: Curves, points: Points, settings: Settings) -> Entries:
+def _draw_experiment(axes: Axes, curves: Curves, points: Points, experiment: Settings) -> Entries:
     """Draw an experiment and the models of its contact, and return entries of the legend."""
     axes.axhline(0, **house_style.GUIDE)
-    e = house_style.restitutions([settings["experiment"]["restitution"]])
-    lumped = _draw_curve(
-        axes, curves["lumped.hysteretic, experiment"], f"lumped model, {e}", house_style.LUMPED
-    )
-    models = house_style.draw_lossy_continua(axes, curves, X, Y, e, "experiment")
-    series = {MEASURED_ANGLES: ("measured (Kharaz et al.)", GLASS_POINTS)}
-    return [*house_style.references(axes, points, series), lumped, *models]
+    e, zeta2 = experiment["restitution"], experiment["stiffness_ratio"]
+    axes.set_title(rf"$e = {e:g}$,  $\zeta^2 = {zeta2:g}$")
+    label, name = f"lumped model, $e = {e:g}$", "lumped.hysteretic, experiment"
+    lumped = house_style.line(axes, curves, name, X, Y, label=label, **house_style.LUMPED)
+    models = house_style.lossy_continua(axes, curves, X, Y, "experiment")
+    return [*house_style.references(axes, points, SHOTS), lumped, *models]
 
 
-def _draw_curve(axes: Axes, curve: Columns, label: str, style: Style) -> Line2D:
-    return axes.plot(curve[X], curve[Y], label=label, **style)[0]
-
-
-def _range(curve: Columns, right: float, least: tuple[float, float]) -> tuple[float, float]:
-    """Range of velocities, at least `least`: down to a curve's lowest, up to its end."""
-    drawn = curve[Y][curve[X] <= right]
-    return min(least[0], math.floor(drawn.min())), max(least[1], math.ceil(drawn[-1]))
-
-
-def _draw_regimes(axes: Axes, curve: Columns, right: float) -> None:
-    """Draw brackets over the regimes of the solver, and lines where the regime changes."""
+def _regimes(curve: Columns, right: float) -> list[tuple[float, float, str]]:
+    """Regimes of the solver over the incidence; none for one point, such as normal impact."""
     x, regime = (curve[column][curve[X] <= right] for column in (X, "regime"))
     starts = [0, *(np.flatnonzero(regime[1:] != regime[:-1]) + 1)]
-    bounds = [*x[starts], right]
-    # A regime may be one point, such as normal impact: it has no bracket.
-    spans = [
-        (start, end, Regime[regime[index]].words)
-        for start, end, index in zip(bounds[:-1], bounds[1:], starts, strict=True)
-        if end - start > 0.02 * right
-    ]
-    house_style.brackets(axes, spans)
-    for start, _, _ in spans[1:]:
-        axes.axvline(start, **house_style.GUIDE)
-
-
-def _draw_printed_limit(axes: Axes, limit: float) -> None:
-    """Mark the paper's limit of slip throughout, (1 + e) m2/m1, against its Eqs 17 to 20."""
-    left, right = axes.get_xlim()
-    if left < limit < right:
-        place = {"transform": axes.get_xaxis_transform()}
-        axes.plot([limit, limit], [0.94, 1], **place, **house_style.PRINTED)
-        style = {"fontsize": house_style.NOTE, "ha": "center", "va": "top"}
-        axes.text(limit, 0.93, "limit as printed", **place, **style)
+    spans = zip(x[starts], [*x[starts[1:]], right], regime[starts], strict=True)
+    return [(low, high, Regime[name].words) for low, high, name in spans if high > low + 0.1]

@@ -91,8 +91,8 @@ def curves(
     """
     zeta2, zeta2_sigma = _stiffness_ratios(points, materials, uncertainty)
     parameters = "restitution", "friction"
-    stated = [*(points[key] for key in parameters), zeta2]
-    sigmas = [*(points[f"{key}_uncertainty"] for key in parameters), zeta2_sigma]
+    stated = np.array([*(points[key] for key in parameters), zeta2], float)
+    sigmas = np.array([*(points[f"{key}_uncertainty"] for key in parameters), zeta2_sigma], float)
     # Each parameter is lowered by its sigma, because e cannot exceed 1.
     e, friction, ratios = beside.each_lowered(stated, sigmas)
     own: Columns = {key: np.array(points[key]) for key in ("pair", "body", "other")} | {E: e[0]}
@@ -159,9 +159,10 @@ def _fitted(
     fitted = {spread: np.empty_like(e) for spread in spreads}
     for place in np.ndindex(e.shape):
         rebound = CubicSpline(x[place], w[place])
+        end, mu, own_e = (float(values[place]) for values in (ends, friction, e))
         for spread, beta_0 in fitted.items():
-            at = _impacts(ends[place], friction[place], SPREADS[spread])
-            beta_0[place] = tangential_restitution(at, rebound(at), beta, e[place])
+            at = _impacts(end, mu, SPREADS[spread])
+            beta_0[place] = tangential_restitution(at, rebound(at), beta, own_e)
     return fitted
 
 

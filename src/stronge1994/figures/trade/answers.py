@@ -9,19 +9,7 @@ from stronge1994.csv_tables import Row
 
 ERROR, RESTITUTION, LOSS = "max_velocity [mu v2(0)]", "restitution [1]", "loss"
 SPREAD = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
-REFERENCE_ERROR, BUILD_TIME = "reference_error [mu v2(0)]", "build_time [s]"
 TIME = re.compile(r"time_(\d+) \[s\]")
-# What the names of models begin with, the simplest first. Others come behind them.
-SIMPLEST_FIRST = (
-    "rigid",
-    "laws.",
-    "lumped",
-    "timestep.",
-    "spheres",
-    "continuum",
-    "annuli",
-    "spline of ",
-)
 # Nine of ten times of two runs differ by less than this share, where the rounds of one run often
 # agree to a few hundredths: the memory of another run lies elsewhere.
 BETWEEN_RUNS = 0.1
@@ -39,10 +27,9 @@ def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -
     """The fastest model that meets each tolerance, for each restitution, loss and size of batch.
 
     A model meets a tolerance if its largest error of velocity does, with the error of the reference
-    added; if no model does, it is "none". `build_time` is spread over the batch. Models whose
-    times differ from the shortest by less than times scatter, `scatter_...` or
-    `BETWEEN_RUNS`, are as fast: of them the nearest is taken, and of those that are as near to two
-    digits the simplest, by `SIMPLEST_FIRST`.
+    added; if no model does, it is "none". `build_time` is spread over the batch. Models whose times
+    differ from the shortest by less than times scatter, `scatter_...` or `BETWEEN_RUNS`, are as
+    fast: of them the nearest is taken.
 
     >>> row = {"restitution [1]": "1", "max_velocity [mu v2(0)]": "0.2", "build_time [s]": ""}
     >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5", "loss": ""}
@@ -56,24 +43,19 @@ def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -
     table = []
     for restitution, loss in cases:
         same = [row for row in rows if (row[RESTITUTION], row[LOSS]) == (restitution, loss)]
+        wrong = [
+            f"{float(row[ERROR]):.2g}"
+            for row in same
+            if loss and row["model"].startswith("continuum.") and not row["model"].endswith(loss)
+        ]
         for tolerance in tolerances:
-            good = [row for row in same if _known_error(row) <= tolerance]
             entry = {RESTITUTION: restitution, LOSS: loss, "tolerance [mu v2(0)]": f"{tolerance:g}"}
-            entry |= {"other_loss [mu v2(0)]": _other_loss(same)}
+            entry |= {"other_loss [mu v2(0)]": wrong[0] if wrong else ""}
             entry |= {key: f"{float(same[0][key]):.2g}" for key in SPREAD}
             for batch in batches:
-                entry |= _cheapest(good, batch)
+                entry |= _cheapest([row for row in same if _known_error(row) <= tolerance], batch)
             table.append(entry)
     return table
-
-
-def _other_loss(rows: Sequence[Row]) -> str:
-    """Largest error of the continuum with the other loss, "" for an elastic contact."""
-    for row in rows:
-        loss = row[LOSS]
-        if loss and row["model"].startswith("continuum.") and row["model"] != f"continuum.{loss}":
-            return f"{float(row[ERROR]):.2g}"
-    return ""
 
 
 def whole_time(row: Mapping[str, Any], batch: int) -> float | None:
@@ -83,11 +65,11 @@ def whole_time(row: Mapping[str, Any], batch: int) -> float | None:
     2.5
     """
     time = row[f"time_{batch} [s]"]
-    return float(time) + float(row[BUILD_TIME] or 0) / batch if time else None
+    return float(time) + float(row["build_time [s]"] or 0) / batch if time else None
 
 
 def _known_error(row: Row) -> float:
-    return float(row[ERROR]) + float(row[REFERENCE_ERROR])
+    return float(row[ERROR]) + float(row["reference_error [mu v2(0)]"])
 
 
 def _cheapest(rows: Sequence[Row], batch: int) -> Row:
@@ -96,27 +78,21 @@ def _cheapest(rows: Sequence[Row], batch: int) -> Row:
     timed = [(time, row) for row in rows if (time := whole_time(row, batch))]
     if not timed:
         return dict(zip(keys, ("none", "", ""), strict=True))
-    fastest, first = min(timed, key=lambda found: found[0])
-    least = _scatter(first, batch)
+    fastest, first = min(timed, key=lambda one: one[0])
     as_fast = [
-        (float(f"{float(row[ERROR]):.2g}"), _simplicity(row), time, row)
+        (float(row[ERROR]), time, row["curve"])
         for time, row in timed
-        if time - fastest <= max(least, _scatter(row, batch))
+        if time - fastest <= max(_scatter(first, batch), _scatter(row, batch))
     ]
-    _, _, time, best = min(as_fast, key=lambda found: found[:3])
-    name = best["curve"].rsplit(", e = ", 1)[0]
-    return dict(zip(keys, (name, f"{float(best[ERROR]):.3g}", f"{time:.2g}"), strict=True))
+    error, time, curve = min(as_fast)
+    name = curve.rsplit(", e = ", 1)[0]
+    return dict(zip(keys, (name, f"{error:.3g}", f"{time:.2g}"), strict=True))
 
 
 def _scatter(row: Row, batch: int) -> float:
     """How far the time of one of a batch of impacts may be off, in seconds."""
     measured = float(row[f"scatter_{batch} [1]"]) * float(row[f"time_{batch} [s]"])
     return max(measured, BETWEEN_RUNS * (whole_time(row, batch) or 0.0))
-
-
-def _simplicity(row: Row) -> int:
-    places = [i for i, name in enumerate(SIMPLEST_FIRST) if row["model"].startswith(name)]
-    return places[0] if places else len(SIMPLEST_FIRST)
 
 
 def write(curves: str, table: str, cheapest: str) -> None:

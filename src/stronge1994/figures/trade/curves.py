@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -10,12 +11,14 @@ from scipy.interpolate import PchipInterpolator
 from planarimpact import continuum, models
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound
-from planarimpact.models import Model
 from stronge1994.csv_tables import Curves
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
+# Columns of the settings of models, and how a name has them.
 SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
 SETTINGS |= {"knots": "knots [1]"}
+IN_NAMES = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
+IN_NAMES |= {"knots": "{:d} knots"}
 # The spline of the continuum: evenly spaced incidences, and the tolerance of the continuum there.
 SPLINE_KNOTS, SPLINE_TOLERANCE = 2000, 1e-5
 # Tolerance of the spread where the continuum is solved for it.
@@ -65,27 +68,17 @@ def curves(
     named = {}
     for e in restitution:
         groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
-        elastic: Mapping[str, Any] = {"tolerance": tolerance, "tolerances": tolerances}
-        own = elastic if e == 1 else inelastic
-        accuracy, wanted = float(own["tolerance"]), list(own["tolerances"])
+        accuracy, wanted = tolerance, tolerances
+        if e < 1:
+            accuracy, wanted = inelastic["tolerance"], inelastic["tolerances"]
         tried = {"steps": steps, "circles": circles, "tolerance": wanted}
-        solved = [(model, model.rebound(x)) for model in _contenders(groups, tried, incidence[1])]
-        watches = [stopwatch(contender.rebound) for contender, _ in solved]
-        seconds_of = times(watches, incidence, batches, budget)
+        contenders = list(_contenders(groups, tried, incidence[1]))
+        found = [contender.rebound(x) for contender in contenders]
+        seconds = times([stopwatch(c.rebound) for c in contenders], incidence, batches, budget)
         for loss in continuum.LOSSES if e < 1 else ("",):
             exact = reference(x, groups, accuracy, loss)
             spread = input_spread(x, groups, loss)
-            sticks = x <= stiffness_ratio
-            against = {
-                "reference_error [mu v2(0)]": accuracy,
-                "input_spread [mu v2(0)]": root_mean_square(spread),
-                "input_spread_stick [mu v2(0)]": root_mean_square(spread[sticks]),
-            }
-            for (contender, rebound), seconds in zip(solved, seconds_of, strict=True):
-                # What the wrong loss costs does not depend on the tolerance.
-                coarsest = contender.settings.get("tolerance", np.inf) >= max(wanted)
-                if _loss(contender.model) not in ("", loss) and not coarsest:
-                    continue
+            for contender, rebound, taken in zip(contenders, found, seconds, strict=True):
                 row = {
                     "model": contender.model,
                     "restitution [1]": e,
@@ -93,11 +86,15 @@ def curves(
                     **{SETTINGS[key]: value for key, value in contender.settings.items()},
                     **errors(rebound, exact),
                     "seen [1]": float(np.mean(np.abs(rebound.velocity - exact.velocity) > spread)),
-                    **against,
+                    "reference_error [mu v2(0)]": accuracy,
+                    "input_spread [mu v2(0)]": root_mean_square(spread),
+                    "input_spread_stick [mu v2(0)]": root_mean_square(spread[x <= stiffness_ratio]),
                     **contender.build_time,
-                    **seconds,
+                    **taken,
                 }
-                named[_name(contender, e, loss)] = {k: np.array([v]) for k, v in row.items()}
+                settings = [IN_NAMES[key].format(v) for key, v in contender.settings.items()]
+                name = ", ".join([contender.model, *settings, f"e = {e:g}", *filter(None, [loss])])
+                named[name] = {key: np.array([value]) for key, value in row.items()}
     return named
 
 
@@ -120,16 +117,18 @@ def _contenders(
     elastic = groups["restitution"] == 1
     names = set()
     for model in models.MODELS.values():
-        if not models.admits(model, **groups):
-            continue
-        # For e = 1 a model with a loss is the same as the model without.
         stem = model.name.partition(".")[0]
-        name = stem if elastic and (stem in models.MODELS or _loss(model.name)) else model.name
-        if name in names:
+        # For e = 1 a model with a loss is the same as the model without.
+        double = elastic and (stem in models.MODELS or model.name == f"{stem}.{model.loss}")
+        name = stem if double else model.name
+        if name in names or not models.admits(model, **groups):
             continue
         names.add(name)
-        for settings in _variants(model, tried):
-            yield _Contender(name, settings, _solver(model, groups, settings))
+        # The first setting that is tried is varied, others keep their defaults.
+        known = {key: value for key, value in model.settings.items() if key in tried}
+        varied = next(iter(known), "")
+        for settings in [known | {varied: value} for value in tried[varied]] if varied else [{}]:
+            yield _Contender(name, settings, partial(model.rebound, **groups, **settings))
     if elastic:
         start = time.process_time()
         spline = _spline_of_continuum(groups, incidence_max)
@@ -154,34 +153,7 @@ def _spline_of_continuum(groups: Mapping[str, Any], incidence_max: float) -> _So
     return rebound
 
 
-def _loss(model: str) -> str:
-    """The loss in the name of a model, "" where it has none or is elastic."""
-    loss = model.rpartition(".")[2]
-    return loss if loss in continuum.LOSSES else ""
-
-
-def _variants(model: Model, tried: dict[str, Sequence[float]]) -> list[dict[str, float]]:
-    """Settings of a model: the first that is tried is varied, the others keep their defaults."""
-    known = {key: value for key, value in model.settings.items() if key in tried}
-    varied = next(iter(known), None)
-    return [known | {varied: value} for value in tried[varied]] if varied else [{}]
-
-
-def _solver(model: Model, groups: dict[str, float], settings: dict[str, float]) -> _Solver:
-    def rebound(x: Array) -> Rebound:
-        return model.rebound(x, **groups, **settings)
-
-    return rebound
-
-
-def _name(contender: _Contender, e: float, loss: str) -> str:
-    formats = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
-    formats |= {"knots": "{:d} knots"}
-    settings = [formats[key].format(value) for key, value in contender.settings.items()]
-    return ", ".join([contender.model, *settings, f"e = {e:g}", *filter(None, [loss])])
-
-
-def reference(x: Array, groups: dict[str, float], tolerance: float, loss: str) -> Rebound:
+def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: str) -> Rebound:
     """What errors are measured against. The `loss`, viscous or plastic, has no meaning for e = 1.
 
     >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.5}
@@ -285,6 +257,8 @@ def _seconds(watch: Callable[[Array], float], incidence: Sequence[float], batch:
 
 
 def stopwatch(rebound: _Solver) -> Callable[[Array], float]:
+    """The seconds that the processor works for a solver."""
+
     def seconds(x: Array) -> float:
         start = time.process_time()
         rebound(x)

@@ -3,16 +3,14 @@
 A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py has a function
 `draw(curves, settings, points)`, which returns a Figure:
 
-- `curves`, `{curve: {column: array}}`: the result of curves.py beside it, and the curves that a
-  function `drawn_curves` of drawing.py adds. `line` draws two columns of a curve and takes the
-  labels of the axes and of the legend from their names;
+- `curves`, `{curve: {column: array}}`: the result of curves.py beside it. `line` draws two columns
+  of a curve and takes the labels of the axes and of the legend from their names;
 - `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
   table they have no more than the name;
 - `points`, the series of data/ that are at hand, `{"source/series": {...}}` with arrays `x` and
-  `y`, their `sigma`, `line`, all `columns` and the source's `parameters`, of those that were
-  computed only what figure.yaml `draws`; and stated facts, as in source.yaml.
-
-A drawing.py may also have `drawn_series`, which converts such a series.
+  `y`, their `sigma`, the names of both columns as `axes`, all `columns` and the source's
+  `parameters`, of those that were computed only what figure.yaml `draws`; and stated facts, as in
+  source.yaml. `measured` draws such points.
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
@@ -21,12 +19,10 @@ What this repository adds to a figure of the paper has its own part of the legen
 several restitutions, `of_restitution` gives their lines; where it shows one, a pattern is a model.
 """
 
-import itertools
 import re
-import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import IO, Any, TypeAlias, TypeVar
+from typing import IO, Any, TypeAlias
 
 import matplotlib
 import numpy as np
@@ -49,16 +45,11 @@ Settings: TypeAlias = dict[str, Any]
 Series: TypeAlias = dict[str, Any]
 Points: TypeAlias = dict[str, Series]
 Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
-_Item = TypeVar("_Item")
 
-# The typefaces that come with matplotlib.
-FONTS = Path(matplotlib.get_data_path(), "fonts/ttf")
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
 WIDTH = 5.0
-# Size in points of notes, of labels over brackets and of labels at lines.
+# Size in points of notes, and of names above the axes.
 NOTE = 8.5
-# Distance of lines of text, over that of the typeface, which leaves room for tall mathematics.
-LINES = 1.0
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 SKY, ORANGE = "#56B4E9", "#E69F00"
@@ -73,7 +64,6 @@ DASHES: tuple[Dashes, ...] = (
     (0, (7, 1.5, 1.5, 1.5, 1.5, 1.5)),
 )
 COLOURS: tuple[str, ...] = (BLACK, BLUE, VERMILLION, GREEN, PURPLE)
-CYCLE = tuple(zip(COLOURS, DASHES, strict=True))
 
 LUMPED: Style = {"color": BLACK, "linestyle": "-", "linewidth": 1.4}
 CONTINUUM: Style = {"color": BLACK, "linestyle": (0, (6, 2)), "linewidth": 1.1}
@@ -104,6 +94,8 @@ LABELS = {
     "incidence [mu v2(0)]": INCIDENCE,
     "velocity [mu v2(0)]": REBOUND,
     "restitution [1]": "restitution $e$",
+    "deflection [v2(0)/Omega]": r"deflection over $v_2(0)/\Omega$",
+    "force [m2 Omega v2(0)]": r"force over $m_2\Omega v_2(0)$",
     "time [t_c]": "$t/t_c$",
     "time [1/Omega]": r"$\Omega t$",
     "tilt [deg]": r"tilt $\alpha$",
@@ -112,6 +104,9 @@ LABELS = {
     "tangential_velocity [v2(0)]": "$v_1(t_f)/v_2(0)$",
     "normal_velocity [v2(0)]": "$v_2(t_f)/v_2(0)$",
     "kinetic_energy [K0]": "$K(t_f)/K(0)$",
+    "approach [delta_max]": r"$\delta/\delta_\mathrm{max}$",
+    "rms_distance [mu v2(0)]": r"rms distance $[\mu v_2(0)]$",
+    "place [m]": "distance from the first impact [m]",
 }
 
 STYLE = {
@@ -141,7 +136,7 @@ STYLE = {
 }
 # These fonts come with matplotlib. Its cached list of fonts may be older than this installation and
 # lack them: then it would use another font, whose letters are too wide for their places.
-for _font in sorted(FONTS.glob("STIX*.ttf")):
+for _font in sorted(Path(matplotlib.get_data_path(), "fonts/ttf").glob("STIX*.ttf")):
     font_manager.fontManager.addfont(_font)
 matplotlib.rcdefaults()
 matplotlib.rcParams.update(STYLE)
@@ -164,20 +159,10 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
         axes.apply_aspect(locator(axes, None) if locator else None)
         axes.set_position(np.round(axes.get_position().bounds, 6))
     # `Figure.savefig` would draw once more to solve the layout again.
-    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
+    figure.dpi = 200  # of the PNG, and of pixels inside the SVG
     if png:
-        figure.dpi = 200
         FigureCanvasAgg(figure).print_png(png)
-
-
-def failure(message: str) -> Figure:
-    """Figure of one sentence, drawn instead of curves that are missing."""
-    figure = new(1.6)
-    # A dollar sign in an error message is not mathematics.
-    style = {"ha": "center", "va": "center", "color": VERMILLION, "parse_math": False}
-    style["linespacing"] = LINES
-    figure.text(0.5, 0.5, textwrap.fill(message, 64), **style)
-    return figure
+    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
 
 
 def symbols(name: str) -> str:
@@ -223,11 +208,6 @@ def line(
     return axes.plot(curve[x], height, **{"label": symbols(name)} | style)[0]
 
 
-def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
-    """Each item with its own pattern of line."""
-    return zip(items, itertools.cycle(DASHES), strict=False)
-
-
 def of_restitution(e: float) -> Dashes:
     """Pattern of a restitution: solid for 1, dashes that shorten with e, dash-dot for 0.
 
@@ -237,15 +217,6 @@ def of_restitution(e: float) -> Dashes:
     if e == 1:
         return "-"
     return (0, (2 + 6 * e, 2)) if e > 0 else DASHES[2]
-
-
-def restitutions(values: Iterable[float]) -> str:
-    """Label for several restitutions.
-
-    >>> restitutions([0.5, 0.8])
-    '$e = 0.5, 0.8$'
-    """
-    return f"$e = {', '.join(f'{e:g}' for e in values)}$"
 
 
 def key(label: str, **style: Any) -> Line2D:
@@ -276,10 +247,18 @@ def legend_below(
             text.set_style("italic")
 
 
-def rigid(axes: Axes, curves: Curves, name: str, x: str, y: str, compliant: str) -> Line2D:
+def rigid(
+    axes: Axes,
+    curves: Curves,
+    name: str,
+    x: str,
+    y: str,
+    compliant: str,
+    label: str = "no tangential compliance",
+) -> Line2D:
     """Line without tangential compliance, left out where the compliant curve is the same."""
     rows = ~np.isclose(curves[name][y], curves[compliant][y])
-    return line(axes, curves, name, x, y, rows, label="no tangential compliance", **RIGID)
+    return line(axes, curves, name, x, y, rows, label=label, **RIGID)
 
 
 def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> Entries:
@@ -303,32 +282,26 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
     return list(entries.values())
 
 
-def draw_lossy_continua(
-    axes: Axes, curves: Curves, x: str, y: str, condition: str, end: str = ""
-) -> Entries:
+def lossy_continua(axes: Axes, curves: Curves, x: str, y: str, end: str = "") -> Entries:
     """Draw the continua that lose energy, and return entries of the legend.
 
     They are known by the beginnings of their names; only those are drawn whose names end with
-    `end`. The legend adds `condition` to the name of each model.
+    `end`. An entry has the last part of the name.
     """
-    entries = []
-    for model, (label, style) in LOSSY_CONTINUA.items():
-        own = [name for name in curves if name.startswith(f"{model}, ") and name.endswith(end)]
-        label = f"{label}, {condition}"
-        lines = [line(axes, curves, name, x, y, label=label, **style) for name in own]
-        entries += lines[:1]
-    return entries
+    entries = {}
+    for name in curves:
+        model, _, rest = name.partition(", ")
+        if model in LOSSY_CONTINUA and name.endswith(end):
+            words, style = LOSSY_CONTINUA[model]
+            label = f"{words}, {symbols(rest.split(', ')[-1])}"
+            entries[label] = line(axes, curves, name, x, y, label=label, **style)
+    return list(entries.values())
 
 
 def measured(axes: Axes, series: Series, **style: Any) -> Artist:
-    """Draw points with error bars, or a line if the reference is one; its entry of the legend.
-
-    The labels of the axes are those of the columns of the series.
-    """
+    """Draw points with error bars, label the axes by their columns; the entry of the legend."""
     x_label, y_label = map(of_column, series["axes"])
     axes.set(xlabel=x_label, ylabel=y_label)
-    if series["line"]:
-        return axes.plot(series["x"], series["y"], **style)[0]
     x_error, y_error = series["sigma"]
     bars = {"linestyle": "none", "elinewidth": 0.7, "markeredgewidth": 0.9, "zorder": 3}
     return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
@@ -344,43 +317,32 @@ def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style
     ]
 
 
-def let_in(axes: Axes, series: Series) -> None:
-    """Widen axes, whose limits are set, to points digitised up to three sigmas outside them."""
-    for name, get, set_ in (
-        ("x", axes.get_xlim, axes.set_xlim),
-        ("y", axes.get_ylim, axes.set_ylim),
-    ):
-        (low, high), sigma = get(), series["sigma"]["xy".index(name)]
-        values = series[name]
-        near = values[(values >= low - 3 * sigma) & (values <= high + 3 * sigma)]
-        set_(min([low, *near]), max([high, *near]))
+def letter(panels: Sequence[Axes]) -> None:
+    """Name panels above each other (a), (b) and so on; only the last keeps its label below."""
+    for name, axes in zip("abcdef", panels, strict=False):
+        axes.set_ylabel(f"({name}) {axes.get_ylabel()}")
+        axes.xaxis.label.set_visible(axes is panels[-1])
 
 
-def angle_axes(axes: Axes, span: Sequence[float]) -> None:
-    """Axis of angles of incidence below, and above it the ratios of velocities that they mean."""
-    axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
+def angle_axes(panels: Sequence[Axes], span: Sequence[float]) -> None:
+    """Angles of incidence below panels, and above the first the ratios of velocities they mean."""
     degrees = [angle for angle in range(0, 91, 30) if span[0] <= angle <= span[1]]
-    axes.set_xticks(degrees, [rf"${angle}\degree$" for angle in degrees])
+    for axes in panels:
+        axes.set(xlim=span, xlabel=r"angle of incidence $\theta$")
+        axes.set_xticks(degrees, [rf"${angle}\degree$" for angle in degrees])
     ratios = np.array([0, 0.2, 0.4, 0.6, 1, 2, 4])
     angles = np.degrees(np.arctan(ratios))
     inside = (angles >= span[0]) & (angles <= span[1])
-    top = axes.secondary_xaxis("top")
+    top = panels[0].secondary_xaxis("top")
     top.set_xticks(angles[inside], [f"{ratio:g}" for ratio in ratios[inside]])
     top.set_xlabel(r"$v_1(0)/v_2(0)$")
 
 
-def brackets(axes: Axes, spans: Iterable[tuple[float, float, str]]) -> None:
-    """Draw brackets over the axes: `spans` holds (start, end, label) on the x axis."""
-    across = axes.get_xaxis_transform()
-    left, right = axes.get_xlim()
-    foot, top = 1.02, 1.045
-    for start, end, label in spans:
-        frame = [start, start, end, end], [foot, top, top, foot]
-        axes.plot(*frame, transform=across, clip_on=False, color=BLACK, linewidth=0.7)
-        # Letters that fit: 20 to an inch in this size. The axes are narrower than the figure.
-        letters = int((end - start) / (right - left) * WIDTH * 17)
-        if letters < max(map(len, label.split())):
-            continue
-        wrapped = textwrap.fill(label, letters)
-        place = {"ha": "center", "va": "bottom", "transform": across, "linespacing": LINES}
-        axes.text((start + end) / 2, top + 0.012, wrapped, fontsize=NOTE, **place)
+def name_spans(axes: Axes, spans: Sequence[tuple[float, float, str]]) -> None:
+    """Names of parts of the x axis above the axes, and lines between them: (start, end, name)."""
+    top = axes.secondary_xaxis("top")
+    middles, names = zip(*(((start + end) / 2, name) for start, end, name in spans), strict=True)
+    top.set_xticks(middles, names, fontsize=NOTE)
+    top.tick_params(length=0)
+    for start, _, _ in spans[1:]:
+        axes.axvline(start, **GUIDE)

@@ -1,113 +1,50 @@
-"""The frame of a slide: one point of a figure, for a projector, on a light and on a dark ground.
+"""A slide: one panel of a figure for a projector, on a light and on a dark ground.
 
-A figure has a slide if its folder has a slide.py, with a function
-`draw(curves, settings, points, ground)`. It gets what `draw` of drawing.py beside it gets, and a
-`Ground`. Its title is a sentence that says the point; numbers in it are computed from the curves,
-and if the curves no longer show the point, another title says only what is drawn. Names stand at
-the curves.
+figure.yaml names the panel by its letter and gives the slide a title. The slide has the entries of
+the figure's legend whose labels are those of lines, marks and areas in the panel.
 """
 
+import re
 import textwrap
-from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
+from matplotlib.legend import Legend
 from PIL import Image
 
-from planarimpact.ground.arrays import Array
-from stronge1994.figures.shared.drawing import house_style
-
-# Pixels. A point of matplotlib is a pixel here, so that sizes of letters and lines are pixels too.
-WIDTH, HEIGHT = 1920, 1080
-DOTS_PER_INCH = 72
-TITLE, LETTERS, SOURCE = 60, 40, 28  # sizes of letters
-LINE, MARK = 6.0, 20.0  # width of a line, size of a marker
-LEFT, RIGHT, TOP, BOTTOM = 180, 1840, 800, 200  # edges of the axes
-MARGIN = 60  # of the title and of the source
+# Inches: the letters are as large as in the figure, and 1920 pixels wide.
+WIDTH, HEIGHT = 6.4, 3.6
+DOTS_PER_INCH = 300
+DARK = np.array([0x15, 0x18, 0x1C])  # ground of the pages and of the lectures
 
 
-class Ground(NamedTuple):
-    """A ground and the colours on it, those of the pages and of the lectures."""
-
-    paper: str
-    ink: str
-    quiet: str
-    blue: str
-    vermillion: str
-    green: str
-
-
-# Darker or lighter than the house's colours, so that words in them can be read.
-LIGHT = Ground("#ffffff", "#222222", "#666666", "#005f9e", "#b84a00", "#00755a")
-DARK = Ground("#15181c", "#e9e7e3", "#a5a39e", "#8fc7ff", "#ff9d5c", "#4fd0ae")
-GROUNDS = {"light": LIGHT, "dark": DARK}
-
-
-def new(title: str, data: str, ground: Ground) -> tuple[Figure, Axes]:
-    """Empty slide with its title and the source of its `data`, and its axes."""
-    size = WIDTH / DOTS_PER_INCH, HEIGHT / DOTS_PER_INCH
-    figure = Figure(figsize=size, dpi=DOTS_PER_INCH, facecolor=ground.paper)
-    style = {"color": ground.ink, "fontsize": TITLE}
-    style |= {"va": "top", "linespacing": house_style.LINES}
-    left = MARGIN / WIDTH
-    lines = -(-len(title) // 72)
-    wrapped = textwrap.fill(title, len(title) // lines + 8)  # into lines of nearly one length
-    figure.text(left, 1 - MARGIN / HEIGHT, wrapped, **style)
-    source = f"planarimpact; data: {data}"
-    figure.text(left, 0.5 * MARGIN / HEIGHT, source, color=ground.quiet, fontsize=SOURCE)
-    frame = LEFT / WIDTH, BOTTOM / HEIGHT, (RIGHT - LEFT) / WIDTH, (TOP - BOTTOM) / HEIGHT
-    axes = figure.add_axes(frame, facecolor=ground.paper)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.spines[:].set(color=ground.quiet, linewidth=LINE / 2)
-    ticks = {"color": ground.quiet, "labelcolor": ground.ink, "labelsize": LETTERS}
-    axes.tick_params(direction="out", width=LINE / 2, length=12, pad=12, **ticks)
-    axes.tick_params(which="minor", length=0)
-    return figure, axes
-
-
-def name_axes(axes: Axes, x: str, y: str, ground: Ground) -> None:
-    """Label both axes; the vertical one above its end, in a line that can be read."""
-    style = {"color": ground.ink, "fontsize": LETTERS}
-    axes.set_xlabel(x, labelpad=8, **style)
-    axes.set_ylabel(y, rotation=0, ha="left", va="bottom", **style)
-    axes.yaxis.set_label_coords((MARGIN - LEFT) / (RIGHT - LEFT), 1.03)
-
-
-def name_curve(
-    axes: Axes,
-    text: str,
-    x: Array,
-    y: Array,
-    at: float,
-    offset: tuple[float, float],
-    colours: tuple[str, str],
-) -> None:
-    """Write a text beside a curve at the abscissa `at`, by an offset in pixels.
-
-    It lies on the side of the offset; without one, it is centred. `colours` are that of the letters
-    and that of the ground, which keeps lines away from them.
-    """
-    across, up = offset
-    at = float(np.clip(at, x[0], x[-1]))  # other settings may end the curve earlier
-    axes.annotate(
-        text,
-        (at, float(np.interp(at, x, y))),
-        offset,
-        textcoords="offset points",
-        ha="left" if across > 0 else "right" if across < 0 else "center",
-        va="bottom" if up > 0 else "top" if up < 0 else "center",
-        color=colours[0],
-        fontsize=LETTERS,
-        linespacing=house_style.LINES,
-        path_effects=[withStroke(linewidth=10, foreground=colours[1])],
-    )
-
-
-def save(figure: Figure, png: str) -> None:
-    """Write a slide with 256 colours, which makes a small file; lines have few."""
+def save(figure: Figure, panel: str, title: str, light: str, dark: str) -> None:
+    """Reduce a figure to one panel, and write both files."""
+    kept = next(a for a in figure.axes if f"({panel})" in a.get_ylabel() + a.get_title())
+    legends = figure.findobj(Legend)
+    known = {text.get_text() for legend in legends for text in legend.get_texts()}
+    pairs = zip(*kept.get_legend_handles_labels(), strict=True)
+    shown = {label: artist for artist, label in pairs if label in known}
+    for part in [*legends, *(axes for axes in figure.axes if axes is not kept)]:
+        part.remove()
+    kept.set_subplotspec(figure.add_gridspec()[0])
+    labels = (re.sub(r"^\(\w\) ", "", label) for label in (kept.get_ylabel(), kept.get_title()))
+    kept.set(**dict(zip(("ylabel", "title"), labels, strict=True)))
+    for axis in (kept.xaxis, kept.yaxis):
+        axis.label.set_visible(True)
+        axis.set_tick_params(labelbottom=True, labelleft=True)
+    figure.set_size_inches(WIDTH, HEIGHT)
+    figure.suptitle(textwrap.fill(title, 80), x=0.01, ha="left", fontsize=13)
+    if shown:
+        figure.legend(shown.values(), shown.keys(), loc="outside right center")
+    figure.dpi = DOTS_PER_INCH
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(256).save(png)
+    pixels = np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
+    # The other lightness with the same hue and saturation, from the dark ground on.
+    ends = pixels.max(axis=2, keepdims=True) + pixels.min(axis=2, keepdims=True)
+    other = DARK + (pixels + 255 - ends) * (255 - DARK) // 255
+    for picture, file in ((pixels, light), (other, dark)):
+        # 256 colours make a small file; lines have few.
+        Image.fromarray(picture.astype(np.uint8)).quantize(256).save(file)

@@ -1,0 +1,51 @@
+"""Lines of several models of an impact, beside measured points with their errors.
+
+A colour stands for the cause of the loss: black for the normal element of the paper, purple for the
+same with e^2 zeta^2, vermillion and orange for plastic flow, blue for viscosity, green for none.
+"""
+
+from collections.abc import Iterable
+
+from matplotlib.axes import Axes
+
+from stronge1994.csv_tables import Curves
+from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing.house_style import DASHES, Entries, Style
+
+# Models that are held against every measurement below e = 1.
+MODELS = (
+    "lumped.hysteretic",
+    "lumped.unloading-stiffness",
+    "lumped.viscous",
+    "continuum.plastic",
+    "continuum.viscous",
+)
+# Of these one has no loss, and one is for comparison alone, see `planarimpact.continuum.rebound`.
+ELASTIC, ELASTIC_IN_SHEAR = "continuum", "continuum.plastic-elastic-shear"
+# Each model's line with its marks.
+STYLES: dict[str, Style] = {
+    model: {"label": label, "color": colour, "linestyle": dashes, "marker": marker}
+    | {"linewidth": 1.1, "markersize": 3.4, "markeredgewidth": 0.8, "markerfacecolor": "white"}
+    for model, label, colour, dashes, marker in (
+        ("lumped.hysteretic", "lumped, as in the paper", house_style.BLACK, "-", "o"),
+        ("lumped.unloading-stiffness", r"lumped, $e^2\zeta^2$", house_style.PURPLE, DASHES[1], "D"),
+        ("lumped.viscous", "lumped, Kelvin–Voigt", house_style.SKY, DASHES[2], "s"),
+        ("continuum.plastic", "continuum, plastic", house_style.VERMILLION, DASHES[3], "^"),
+        ("continuum.viscous", "continuum, viscous", house_style.BLUE, DASHES[4], "v"),
+        (ELASTIC, "elastic continuum, $e = 1$", house_style.GREEN, DASHES[1], "P"),
+        (ELASTIC_IN_SHEAR, "plastic, elastic in shear", house_style.ORANGE, DASHES[1], "<"),
+    )
+}
+POINT: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
+POINT |= {"markersize": 3.6, "linestyle": "none"}
+
+
+def lines(
+    axes: Axes, curves: Curves, end: str, x: str, y: str, models: Iterable[str] = MODELS
+) -> Entries:
+    """Draw the curve `<model>, <end>` of each model, and return entries of the legend."""
+    plain = {"marker": ""}
+    return [
+        house_style.line(axes, curves, f"{model}, {end}", x, y, **STYLES[model] | plain)
+        for model in models
+    ]
