@@ -5,6 +5,7 @@ states. Beside others: measurements, other codes and other authors. There only t
 told; the table of all comparisons has the other models.
 """
 
+import itertools
 import math
 import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -20,6 +21,9 @@ OTHER_MODELS = ("continuum", "lumped.viscous", "lumped.unloading-stiffness")
 LEAST_SHARE = 1e-3  # of a sigma: less is shown as 0
 # Widths of the columns in a terminal of 80. Names of the paper's figures are shorter than others.
 PAPER_WIDTHS, OTHER_WIDTHS = (6, 11, 23, 37), (13, 11, 16, 37)
+HEADER = """\
+figure solved right as printed              beside others: number of points,
+       axis  sigma what differs: how much  rms [axis], rms [sigma], verdict"""
 
 
 class Item(NamedTuple):
@@ -183,16 +187,7 @@ def _rms(rows: Sequence[Row], unit: str) -> str:
 
 def text(table: Sequence[FigureRow]) -> str:
     """The table for a terminal of 80 columns."""
-    lines = [
-        _line(
-            PAPER_WIDTHS,
-            ("figure", "solved right", "as printed", "beside others: number of points,"),
-        ),
-        _line(
-            PAPER_WIDTHS,
-            ("", "axis  sigma", "what differs: how much", "rms [axis], rms [sigma], verdict"),
-        ),
-    ]
+    lines = [HEADER]
     for row in table:
         widths = PAPER_WIDTHS if is_of_paper(row.figure) else OTHER_WIDTHS
         cells = [
@@ -205,17 +200,10 @@ def text(table: Sequence[FigureRow]) -> str:
             [line for part in cell for line in textwrap.wrap(part, width)] or ["-"]
             for cell, width in zip(cells, widths, strict=True)
         ]
-        height = max(map(len, wrapped))
-        lines += [
-            _line(widths, [cell[i] if i < len(cell) else "" for cell in wrapped])
-            for i in range(height)
-        ]
+        for line in itertools.zip_longest(*wrapped, fillvalue=""):
+            parts = [part.ljust(width) for part, width in zip(line, widths, strict=True)]
+            lines.append(" ".join(parts).rstrip())
     return "\n".join(lines)
-
-
-def _line(widths: Sequence[int], cells: Sequence[str]) -> str:
-    parts = [cell.ljust(width) for cell, width in zip(cells, widths, strict=True)]
-    return " ".join(parts).rstrip()
 
 
 def _solved_words(item: Item) -> str:
