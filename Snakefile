@@ -30,7 +30,6 @@ localrules:
     note,
     trade_tables,
     explorer,
-    interface,
     report,
     site,
 

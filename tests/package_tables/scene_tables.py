@@ -91,7 +91,7 @@ def superball_bounces():
 
     Rounded, so that the last digits of the solver do not make another scene.
     """
-    return superball.impacts(**THROW)[0].round(6)
+    return superball.impacts(THROW)[0].round(6)
 
 
 SCENES = {

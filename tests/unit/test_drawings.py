@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from matplotlib import font_manager
 
-from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import measured as models_beside
 from stronge1994.figures.shared.drawing import house_style, measured
 
@@ -49,7 +48,7 @@ def test_each_measured_series_has_a_panel_with_every_model():
     curves = models_beside.curves(sphere, models, 40, 1e-3, {"restitution": 0.02})
     shares = "tangential_restitution [1]", "centre_restitution [1]"
     points = {f"ball/{name[0]}": measured_series(name) for name in shares}
-    figure = drawings.drawn(measured, curves, {}, points)
+    figure = measured.draw(curves, {}, points)
     assert [len(axes.lines) - 5 for axes in figure.axes] == [6, 6]  # error bars have five
     with pytest.raises(ValueError, match=r"no column 'spin \[rad/s\]'; the curves have incidence"):
-        drawings.drawn(measured, curves, {}, {"ball/s": measured_series("spin [rad/s]")})
+        measured.draw(curves, {}, {"ball/s": measured_series("spin [rad/s]")})

@@ -68,7 +68,7 @@ def interface(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site") / "interface"
     # In a process of its own: pdoc looks at what of the packages has been imported.
     write = "import sys; from stronge1994.pages import interface; interface.write(*sys.argv[1:])"
-    command = [sys.executable, "-c", write, str(folder), str(ROOT / "workflow/report/interface")]
+    command = [sys.executable, "-c", write, str(folder)]
     subprocess.run(command, check=True, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
     return folder
 

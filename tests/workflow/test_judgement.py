@@ -17,7 +17,7 @@ from stronge1994.verdict_tables import verdict_table
 from tests.workflow.project import ROOT
 
 # Not part of a run, but asked for.
-OTHERS = {"site", "interface"}
+OTHERS = {"site"}
 
 
 def test_every_file_of_a_run_is_asked_for(first_run):

@@ -206,7 +206,7 @@ def test_a_failing_cell_fails_the_job_in_one_line_and_other_lectures_are_written
     failing = "# Twice two\nx = 2\nassert x * x == 5, 'no\\nfive'"
     written(fresh / "workflow/notebooks/broken.ipynb", "x = 1", failing)
     written(fresh / "workflow/notebooks/sound.ipynb", "# Sound\nprint('as it should')")
-    result = fresh.run("figures/broken.html", "results/notebooks/broken.ipynb")
+    result = fresh.run("figures/broken.html", "figures/sound.html")
     assert result.returncode != 0
     words = r"NotebookError: broken.ipynb, cell 2: assert x \* x == 5, .*: no five"
     said = rf"^failed: lecture_broken: {words} \(log: .*\)$"

@@ -38,7 +38,7 @@ def given(first_run):
         module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
         return csv_tables.read(
             project / f"results/curves/{figure}.csv"
-        ), lambda curves: drawings.drawn(module, curves, settings["settings"], points)
+        ), lambda curves: module.draw(curves, settings["settings"], points)
 
     return of
 

@@ -48,7 +48,7 @@ def test_examples_run_alone_and_print_what_they_say(block, somewhere, capsys):
 
 def test_commands_run_as_printed(somewhere):
     blocks = [b for text in TEXTS.values() for b in re.findall(r"```sh\n(.*?)```", text, re.S)]
-    shown = [line for block in blocks for line in block.splitlines() if "-m planarimpact" in line]
+    shown = [line for block in blocks for line in block.splitlines() if "-m planarimpact " in line]
     assert len(shown) == 3
     for line in shown:
         command = [sys.executable, *shlex.split(line)[1:]]

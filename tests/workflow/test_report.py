@@ -289,7 +289,7 @@ def test_a_failed_run_looks_like_one():
     page = doctored()
     text = in_words(Page(page))
     first = "FAILED 2 comparisons fail. Today, commit abc Fig. 6, rebound is wrong: max 9"
-    assert text.index(first) < text.index("A rough, elastic body")
+    assert text.index(first) < text.index("Which figures agree, with what")
     assert '<li><a href="#fig6-rebound">' in page
     # What was found is told of a run that passed.
     assert "PASSED" not in text and "What we found" not in text

@@ -268,9 +268,9 @@ def test_a_page_that_the_report_leaves_out_fails_each_run_that_makes_it(finished
         assert "failed: report: RuntimeError: sources of data: ArithmeticError: oh" in words
 
 
-def test_a_changed_setting_is_told_beside_that_of_the_reference(finished):
+def test_a_curve_that_a_changed_setting_leaves_out_is_told(finished):
     words = finished.refuses_to_pass("fig3", "--config", "figures={fig3: {restitution: [1, 0.9]}}")
-    assert "the reference has e = 1, 0.5; the figure has 1, 0.9" in words
+    assert "no curve 'e = 0.5'; the figure has e = 1, e = 0.9" in words
 
 
 def test_any_folder_and_home_will_do(tmp_path):

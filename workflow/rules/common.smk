@@ -1,6 +1,5 @@
 # Check config and data before any work, and plan every job.
 from stronge1994.curve_names import SCENE, is_of_paper
-from stronge1994.formulas import plain
 from stronge1994.ledger import entries
 
 LEDGER = "data/stronge1994/ledger.yaml"

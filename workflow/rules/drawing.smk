@@ -7,18 +7,11 @@ rule draw:
         curves="results/curves/{figure}.csv",
         series=of_figure("series"),
     output:
-        svg=report(
-            "figures/{figure}.svg",
-            caption="../report/figures.rst",
-            category="Figures",
-            labels={"figure": "{figure}"},
-        ),
+        svg="figures/{figure}.svg",
         png="figures/{figure}.png",
         record="results/records/draw_{figure}.json",
     wildcard_constraints:
         figure="|".join(figure for figure in FIGURES if figure not in SLIDES) or "none",
-    params:
-        caption=lambda wildcards: plain(CAPTIONS[wildcards.figure]),
     log:
         "results/logs/draw_{figure}.log",
     priority: priority
@@ -33,12 +26,7 @@ rule draw:
 use rule draw as draw_with_slide with:
     # Also one point of the figure for a projector, on a light and on a dark ground.
     output:
-        svg=report(
-            "figures/{figure}.svg",
-            caption="../report/figures.rst",
-            category="Figures",
-            labels={"figure": "{figure}"},
-        ),
+        svg="figures/{figure}.svg",
         png="figures/{figure}.png",
         light="figures/slides/{figure}_light.png",
         dark="figures/slides/{figure}_dark.png",

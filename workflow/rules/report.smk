@@ -21,26 +21,6 @@ REPORT_SETTINGS = {
 }
 
 
-rule interface:
-    """What the functions of the solver take and return, as pages made from their docstrings."""
-    input:
-        plan=planned("interface", "write_interface", "pages/__init__.py", "pages/interface.py",
-            "pages/names.py", "pages/templates.py", "plan", "printed", "reference_data"),
-        parts=expand("workflow/report/interface/{part}", part=["frame.html.jinja2", "custom.css"]),
-        shared=EVERY_PAGE,
-    output:
-        pages=directory("figures/interface"),
-        record="results/records/interface.json",
-    log:
-        "results/logs/interface.log",
-    message:
-        "Writing the interface of the solver"
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/write_interface.py"
-
-
 rule report:
     """The run as one page, its sources and settings as another; written after failures, too."""
     input:

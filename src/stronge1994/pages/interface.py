@@ -22,8 +22,8 @@ NAMED_TYPES = {
 }
 
 
-def write(folder: str, style: str | Path) -> None:
-    """Write the pages into a folder; `style` is the folder of our style sheet for pdoc."""
+def write(folder: str) -> None:
+    """Write the pages into a folder."""
     import pdoc
     import pdoc.render
     from pygments.formatters import HtmlFormatter  # type: ignore[import-untyped]
@@ -41,7 +41,7 @@ def write(folder: str, style: str | Path) -> None:
         docformat="numpy",
         footer_text="planarimpact",
         include_undocumented=False,
-        template_directory=Path(style),
+        template_directory=templates.SHARED / "interface",
     )
     # The bar and the theme of all pages; the theme takes the place of that of pdoc.
     pdoc.render.env.loader.searchpath.insert(1, templates.SHARED)  # type: ignore[union-attr]

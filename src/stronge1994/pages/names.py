@@ -5,6 +5,7 @@ import re
 from stronge1994.curve_names import SCENE, is_of_paper
 
 YEAR = re.compile(r"(?<=[a-z])(?=(?:19|20)\d\d$)")
+GREEK = {"mu": "μ", "nu": "ν"}
 # Units whose names in tables a reader would not understand.
 UNITS = {
     "1": "",
@@ -30,6 +31,15 @@ UNITS = {
 }
 
 
+def words(identifier: str) -> str:
+    """The words of an identifier, with Greek letters.
+
+    >>> words("contact-nu-0.3"), words("peak_over_mu_normal")
+    ('contact ν 0.3', 'peak over μ normal')
+    """
+    return " ".join(GREEK.get(word, word) for word in re.split("[-_]", identifier))
+
+
 def figure(name: str) -> str:
     """Name of a figure.
 
@@ -39,8 +49,8 @@ def figure(name: str) -> str:
     if is_of_paper(name):
         return f"Fig. {name.removeprefix('fig')}"
     if name.startswith(SCENE):
-        return f"Scene: {name.removeprefix(SCENE).replace('_', ' ')}"
-    return name.replace("_", " ").capitalize()
+        return f"Scene: {words(name.removeprefix(SCENE))}"
+    return words(name).capitalize()
 
 
 def comparison(name: str) -> str:
@@ -49,7 +59,7 @@ def comparison(name: str) -> str:
     >>> comparison("fig5-continuum.viscous-experiment-initial-stick")
     'continuum.viscous experiment initial stick'
     """
-    return name.partition("-")[2].replace("-", " ")
+    return words(name.partition("-")[2])
 
 
 def source(name: str) -> str:
@@ -61,17 +71,17 @@ def source(name: str) -> str:
     authors, *year = YEAR.split(name)
     if year:
         return f"{' & '.join(map(str.capitalize, authors.split('_')))} {year[0]}"
-    return name.replace("_", " ").capitalize()
+    return words(name).capitalize()
 
 
 def series(name: str) -> str:
     """Name of a series or a fact of a source.
 
     >>> series("maw1976/rebound_nu_0.3")
-    'Maw 1976: rebound nu 0.3'
+    'Maw 1976: rebound ν 0.3'
     """
     folder, _, part = name.partition("/")
-    return f"{source(folder)}: {part.replace('_', ' ')}"
+    return f"{source(folder)}: {words(part)}"
 
 
 def entry(name: str) -> str:
@@ -89,9 +99,9 @@ def column(name: str) -> str:
     >>> column("largest_error [mu v2(0)]"), column("restitution [1]")
     ('largest error, $\\mu v_2(0)$', 'restitution')
     """
-    words, _, unit_name = name.rstrip("]").partition(" [")
+    quantity, _, unit_name = name.rstrip("]").partition(" [")
     written = UNITS.get(unit_name, unit_name)
-    return words.replace("_", " ") + (f", {written}" if written else "")
+    return words(quantity) + (f", {written}" if written else "")
 
 
 def unit(name: str) -> str:

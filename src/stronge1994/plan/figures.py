@@ -1,6 +1,5 @@
 """The figure.yaml of each folder of `figures`: settings, caption, comparisons."""
 
-import ast
 import copy
 import functools
 import itertools
@@ -16,7 +15,6 @@ Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 FOLDER = Path(__file__).parents[1] / "figures"
 PROJECT = Path(__file__).parents[3]
 SHARED = "shared"  # folder beside the figures, of code for several of them
-MORE_ARGUMENTS = ("nodes", "materials", "uncertainty")  # of `curves`, beside settings
 
 
 @functools.cache
@@ -38,43 +36,19 @@ def stated() -> dict[str, Stated]:
         for file in ("curves.py", "drawing.py"):
             if not (FOLDER / name / file).is_file():
                 raise reference_data.SourceError(f"{path.parent / file}: missing")
-        _refuse_other_parameters(name, contents[name])
     return contents
 
 
-def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str, depth: int = 0) -> None:
+def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str) -> None:
     for key, node in settings.items():
         kind = node.get("allowed")
         if kind is None:
-            _refuse_unknown_kinds(node, f"{where}.{key}", depth + 1)
+            _refuse_unknown_kinds(node, f"{where}.{key}")
             continue
         named = [kind] if isinstance(kind, str) else re.findall(r"#/\$defs/(\w+)", f"{kind}")
         if unknown := [name for name in named if name not in _kinds()]:
             problem = f"'{unknown[0]}' is no kind of values; allowed are {', '.join(_kinds())}"
             raise reference_data.SourceError(f"{where}.{key}.allowed: {problem}")
-        if kind in ("source", "table") and depth:
-            problem = f"a {kind} stands on top of the settings, in no group"
-            raise reference_data.SourceError(f"{where}.{key}: {problem}")
-        if kind == "table" and key != "points":
-            raise reference_data.SourceError(f"{where}.{key}: a table is called `points`")
-
-
-def _refuse_other_parameters(name: str, content: Stated) -> None:
-    """Refuse settings that `curves` does not take, or lacks; its imports are not followed."""
-    try:
-        tree = ast.parse((FOLDER / name / "curves.py").read_text(encoding="utf-8"))
-    except SyntaxError:  # the row `...-solved` has the error
-        return
-    for node in tree.body:
-        if isinstance(node, ast.FunctionDef) and node.name == "curves":
-            takes = [argument.arg for argument in node.args.args]
-            needs = set(takes[: len(takes) - len(node.args.defaults)]) - {*MORE_ARGUMENTS}
-            has = {*content["settings"], *content.get("shared", [])}
-            for relation, names in (("takes no", has - {*takes}), ("needs", needs - has)):
-                if names:
-                    wrong = f"`curves` of curves.py {relation} '{min(names)}'"
-                    known = f"it takes {', '.join(takes)}"
-                    raise reference_data.SourceError(f"{_file(name)}: settings: {wrong}; {known}")
 
 
 def place(name: str) -> tuple[bool, int, str]:

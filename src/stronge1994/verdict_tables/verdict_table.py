@@ -73,11 +73,6 @@ def _rows(path: str) -> list[Row]:
         return [dict.fromkeys(COLUMNS, "") | cells | {"note": f"{error}"}]
 
 
-def failing(rows: Iterable[Row]) -> list[Row]:
-    """Rows that fail a run."""
-    return [row for row in rows if row["verdict"] in FAILS]
-
-
 def why(row: Row) -> str:
     """Why a row fails."""
     found = measured(row)

@@ -2,14 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
 from planarimpact import continuum, lumped, rigid
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound, Regime
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.curves import as_printed as printed_curves
-from stronge1994.figures.shared.curves import continua, measured
+from stronge1994.figures.shared.curves import measured
+from stronge1994.figures.shared.curves.beside import CONTINUA
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
@@ -34,7 +33,7 @@ def curves(
 
     The elastic continuum has e = 1 whatever the restitution. `rubber` and `finite elements` have a
     curve `lumped, ...` and `continuum, ...` each. The experiment, a sphere shot at a plane without
-    spin, has a curve of the lumped model and of each of `continua.MODELS`, with the quantities that
+    spin, has a curve of the lumped model and of each of `CONTINUA`, with the quantities that
     are measured against the angle of incidence; beside them stand curves with one parameter off by
     one sigma, named by `curve_names.shifted`. `spin` is that after the impact, negative in the
     direction of incidence; that of the experiment, in rad/s, has the other sign.
@@ -55,28 +54,27 @@ def curves(
     groups = mass_ratio, stiffness_ratio
     exact = lumped.rebound(x, *groups, restitution)
     angles = nodes.get("angle", ())
-    elastic = _elastic(
-        {
-            "sphere": (x, *groups),
-            "rubber": (x, mass_ratio, spring),
-            "finite elements": (x, *measured.groups(finite_elements)[:2]),
-        },
-        tolerance,
-    )
+    rough = rigid.rebound(x, mass_ratio, restitution=restitution)
+    soft = lumped.rebound(x, mass_ratio, spring, restitution)
+    own = measured.groups(finite_elements)
+    elastic = {
+        name: continuum.rebound(x, beta, zeta2, tolerance=tolerance)
+        for name, (beta, zeta2) in (
+            ("sphere", groups),
+            ("rubber", (mass_ratio, spring)),
+            ("finite elements", own[:2]),
+        )
+    }
     named = {
         "lumped": _sphere(x, exact, mass_ratio),
-        "no tangential compliance": _velocity(
-            x, rigid.rebound(x, mass_ratio, restitution=restitution)
-        ),
+        "no tangential compliance": _velocity(x, rough),
         "continuum": _sphere(x, elastic["sphere"], mass_ratio),
-        "lumped, rubber": _velocity(x, lumped.rebound(x, mass_ratio, spring, restitution)),
+        "lumped, rubber": _velocity(x, soft),
         "continuum, rubber": _velocity(x, elastic["rubber"]),
+        "lumped, finite elements": _sphere(x, lumped.rebound(x, *own), own[0]),
+        "continuum, finite elements": _sphere(x, elastic["finite elements"], own[0]),
     }
-    whole = lumped.rebound(x, *measured.groups(finite_elements))
-    for model, sphere_rebound in (("lumped", whole), ("continuum", elastic["finite elements"])):
-        elements = _sphere(x, sphere_rebound, finite_elements["mass_ratio"])
-        named[f"{model}, finite elements"] = elements
-    for model in ("lumped.hysteretic", *continua.MODELS):
+    for model in ("lumped.hysteretic", *CONTINUA):
         sphere = experiment, uncertainty or {}, samples, loss_tolerance, angles
         named |= measured.shots(model, f"{model}, experiment", *sphere)
     if as_printed:
@@ -94,26 +92,4 @@ def _sphere(x: Array, rebound: Rebound, mass_ratio: float) -> Columns:
         **_velocity(x, rebound),
         "regime": Regime.names(rebound.regime),
         "spin [mu v2(0)/R]": -(mass_ratio - 1) / mass_ratio * (x - rebound.velocity),
-    }
-
-
-def _elastic(asked: dict[str, tuple[Array, float, float]], tolerance: float) -> dict[str, Rebound]:
-    """The continuum for several spheres at once, each with its incidences, beta and zeta^2."""
-    x, beta, zeta2 = (
-        np.concatenate([np.broadcast_to(group[i], group[0].shape) for group in asked.values()])
-        for i in range(3)
-    )
-    rebound = continuum.rebound(x, beta, zeta2, tolerance=tolerance)
-    ends = np.cumsum([group[0].size for group in asked.values()])
-    parts = [
-        slice(end - group[0].size, end) for group, end in zip(asked.values(), ends, strict=True)
-    ]
-    return {
-        name: Rebound(
-            rebound.velocity[part],
-            rebound.peak_friction[part],
-            rebound.dissipation[part],
-            np.asarray(rebound.regime)[part],
-        )
-        for name, part in zip(asked, parts, strict=True)
     }

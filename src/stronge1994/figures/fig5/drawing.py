@@ -41,7 +41,7 @@ SHOTS = {
 }
 
 
-def drawn_series(name: str, series: Series) -> Series:
+def _converted(name: str, series: Series) -> Series:
     """Measurements against the angle, converted to the axes of the figure with their errors."""
     if name == LOSSY_RUBBER:
         return series | _turned_round(series)
@@ -85,6 +85,7 @@ def contact_velocities(
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) the paper's curves and series, and additions; (b) an experiment with its models."""
+    points = {name: _converted(name, series) for name, series in points.items()}
     figure = house_style.new(7.0)
     axes, shots = figure.subplots(2, 1, sharex=True, height_ratios=[5, 3.4])
     printed = (1 + settings["restitution"]) * settings["mass_ratio"]
@@ -134,7 +135,7 @@ def _draw_experiment(axes: Axes, curves: Curves, points: Points, experiment: Set
     axes.set_title(rf"$e = {e:g}$,  $\zeta^2 = {zeta2:g}$")
     label, name = f"lumped model, $e = {e:g}$", "lumped.hysteretic, experiment"
     lumped = house_style.line(axes, curves, name, X, Y, label=label, **house_style.LUMPED)
-    models = house_style.draw_lossy_continua(axes, curves, X, Y, f"$e = {e:g}$", "experiment")
+    models = house_style.lossy_continua(axes, curves, X, Y, "experiment")
     return [*house_style.references(axes, points, SHOTS), lumped, *models]
 
 

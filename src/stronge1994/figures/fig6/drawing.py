@@ -21,8 +21,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         label = rf"lumped model, $e = {e:g}$"
         paper.append(house_style.line(axes, curves, name("e", e), X, Y, label=label, **style))
     added = house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
-    values = house_style.restitutions(settings["continua"]["restitution"])
-    added += house_style.draw_lossy_continua(axes, curves, X, Y, values)
+    added += house_style.lossy_continua(axes, curves, X, Y)
     axes.set_xlim(settings["incidence"])
     house_style.legend_below(figure, paper, added, titles=("in the paper", "added here"))
     return figure

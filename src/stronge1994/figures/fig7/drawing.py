@@ -29,7 +29,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
             axes, curves, f"no tangential compliance, {curve}", X, Y, compliant=curve
         )
         tangential = house_style.line(axes, curves, curve, X, Y, label=label, **TANGENTIAL)
-        pale = house_style.line(below, curves, curve, X, Y, label="tangential, as in (a)", **PALE)
+        pale = house_style.line(below, curves, curve, X, Y, label="tangential, solved", **PALE)
     printed = house_style.as_printed(below, curves, X, Y, "Eqs 31, 32")
     below.axhline(0, **house_style.GUIDE)
     axes.set_ylim(0, None)

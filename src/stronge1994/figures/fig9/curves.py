@@ -10,7 +10,7 @@ from planarimpact.ground.arrays import Array
 from stronge1994.csv_tables import Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.shared.curves import as_printed as printed_curves
-from stronge1994.figures.shared.curves.continua import rebounds_of_continua
+from stronge1994.figures.shared.curves.beside import rebounds_of_continua
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit

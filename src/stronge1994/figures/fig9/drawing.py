@@ -9,7 +9,7 @@ from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import COLOURS, Points, Settings, Style
 
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
-PALE: Style = {"color": house_style.PALE, "linewidth": 2.5, "label": "balance, as in (a)"}
+PALE: Style = {"color": house_style.PALE, "linewidth": 2.5, "label": "balance of energy"}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -30,8 +30,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     pair = f"{name('mu', max(settings['friction']))}, {name('e', max(settings['restitution']))}"
     rough = f"no tangential compliance, {pair}"
     added = [house_style.rigid(axes, curves, rough, X, Y, compliant=pair)]
-    values = house_style.restitutions(settings["continua"]["restitution"])
-    added += house_style.draw_lossy_continua(axes, curves, X, Y, values)
+    added += house_style.lossy_continua(axes, curves, X, Y)
     added += [house_style.line(below, curves, pair, X, Y, **PALE) for pair in strokes][:1]
     for pair, style in strokes.items():
         own = [f"{kind}, {pair}" for kind in (AS_PRINTED, NO_SOLUTION)]

@@ -7,7 +7,7 @@ from matplotlib.ticker import NullLocator
 from scipy.special import chdtri
 
 from planarimpact.ground.arrays import Array
-from stronge1994.csv_tables import Curves
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.inelastic.trials import SIGNIFICANCE, goodness, trials
 from stronge1994.figures.shared.drawing import beside, house_style
@@ -23,16 +23,15 @@ PAIR_SPACING = 0.0055
 MODEL_SPACING = 0.16
 
 
-def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
+def _judged(curves: Curves, measured: Columns) -> Curves:
     """Chi-squared of each model in each trial, over the largest that agrees."""
-    measured = points[settings["points"]]["columns"]
     tables = {}
     for place, model in enumerate(MODELS):
         fits = [goodness(curves, model, measured, trial) for trial in trials(curves).values()]
         over_limit = [fit.value / chdtri(fit.degrees, SIGNIFICANCE) for fit in fits]
         rows = np.arange(len(fits)) + MODEL_SPACING * (place - (len(MODELS) - 1) / 2)
         tables[f"{model}, trials"] = {OVER_LIMIT: np.array(over_limit), ROW: rows}
-    return curves | tables
+    return tables
 
 
 def side_by_side(x: Array) -> Array:
@@ -48,6 +47,8 @@ def side_by_side(x: Array) -> Array:
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) beta_0 against e, (b) one contact at all incidences, (c) chi-squared by trial."""
+    series = points[settings["points"]]
+    curves = curves | _judged(curves, series["columns"])
     figure = house_style.new(9.9)
     grid = figure.add_gridspec(3, height_ratios=[3.4, 2.1, 3.6])
     # Each panel is as wide as its own labels allow.
@@ -60,7 +61,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         edges = [curves[f"{model}, {name('nu', nu)}"][BETA_0] for nu in (low, high)]
         shade = {"color": STYLES[model]["color"], "alpha": 0.13, "linewidth": 0}
         bands.fill_between(curves[f"{model}, {name('nu', low)}"][E], *edges, **shade)
-    pairs = _draw_pairs(bands, points[settings["points"]])
+    pairs = _draw_pairs(bands, series)
     bands.set_title(rf"(a) $\beta_0$, bands: $\nu = {low:g}$ to ${high:g}$; circles: measured")
     e = settings["contact"]["restitution"]
     contact.axhline(0, **house_style.GUIDE)

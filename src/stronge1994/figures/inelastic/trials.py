@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.goodness import ChiSquared, chi_squared
@@ -59,24 +58,11 @@ def trials(curves: Curves) -> dict[str, Trial]:
 
 
 def goodness(curves: Curves, model: str, measured: Columns, trial: Trial = AS_JUDGED) -> ChiSquared:
-    """Chi-squared of a model over the measured pairs."""
+    """Chi-squared of a model over the measured pairs, whose order is that of the curves."""
     name = f"{model}, pairs" + (f", {trial.spread}" if trial.spread else "")
     sigma = measured[SIGMA] * trial.share
-    place = {pair: row for row, pair in enumerate(curves[name]["pair"])}
-    rows = [place[pair] for pair in measured["pair"]]
-    up, down = (
-        curves[curve_names.shifted(name, PARAMETERS, sign)][BETA_0][rows] for sign in (1, -1)
-    )
-    distance = (measured[BETA_0] - curves[name][BETA_0][rows]) / sigma
+    up, down = (curves[curve_names.shifted(name, PARAMETERS, sign)][BETA_0] for sign in (1, -1))
+    distance = (measured[BETA_0] - curves[name][BETA_0]) / sigma
     moved = trial.share * (up - down) / 2 / sigma
     kept = ~np.isin(measured["pair"], list(trial.without))
     return chi_squared(distance[kept], np.diag(moved[kept]))
-
-
-def slope(measured: Columns, without: Sequence[str] = ()) -> tuple[float, float]:
-    """Slope of beta_0 against restitution by weighted least squares, and its standard deviation."""
-    kept = ~np.isin(measured["pair"], list(without))
-    e, beta_0, sigma = (measured[column][kept] for column in (E, BETA_0, SIGMA))
-    line: Array = np.stack([np.ones_like(e), e], axis=1) / sigma[:, None]
-    covariance = np.linalg.inv(line.T @ line)
-    return float((covariance @ line.T @ (beta_0 / sigma))[1]), float(np.sqrt(covariance[1, 1]))

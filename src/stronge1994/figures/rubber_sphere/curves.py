@@ -59,28 +59,23 @@ def curves(
     >>> round(float(named["lumped.hysteretic, impacts"]["tangential_restitution [1]"][0]), 2)
     0.43
     """
-    before, before_sigma, e, e_sigma, e_t = (
-        np.array(points[key], float)
-        for key in (
-            "tangential_before",
-            "tangential_before_uncertainty",
-            "restitution",
-            "restitution_uncertainty",
-            "tangential_restitution",
-        )
-    )
+    measured: Columns = {key: np.array(column) for key, column in points.items()}
+    before, e = measured["tangential_before"], measured["restitution"]
+    before_sigma = measured["tangential_before_uncertainty"]
     friction, x = ball["friction"], vertices(incidence, samples)
     at = before / friction
     # The incidence is raised by its sigma, and a restitution lowered: some are almost 1.
-    raised, lowered = beside.each_lowered([at, e], [-before_sigma / friction, e_sigma])
+    sigmas = [-before_sigma / friction, measured["restitution_uncertainty"]]
+    raised, lowered = beside.each_lowered([at, e], sigmas)
     others = [friction + sign * uncertainty["friction"] for sign in SIGNS]
     impacts = [*raised, *(before / other for other in others)], [*lowered, e, e]
     angle, mu, stated_e = beside.each_lowered(_of_stated(ball), _of_stated(uncertainty))
     stated = np.tan(np.radians(angle)) / mu, stated_e
 
-    alone = halves(points, ball["mass_ratio"])
+    alone = halves(measured, ball["mass_ratio"])
+    e_t = measured["tangential_restitution"], *alone
     limits = np.array([sticking, incidence[1]])
-    labels: Columns = {"impact": np.array(points["impact"]), ANGLE: np.array(points["angle"])}
+    labels: Columns = {"impact": measured["impact"], ANGLE: measured["angle"]}
     balls: Columns = {"ball": np.array(list(STATED)), ANGLE: angle[0]}
     named: Curves = {key: {X: at, E_T: half} for key, half in zip(ALONE, alone, strict=True)}
     for model in (*MODELS, ELASTIC):
@@ -98,7 +93,7 @@ def curves(
             named[f"{model}, stated"] |= {X: stated[0][0]}
         named[title] |= {X: at}
         named[f"{model}, {name('e', e_of_line)}"] = {X: x, E_T: solve(x, e_of_line)}
-        squares = np.square(named[title][E_T] - [e_t, *alone])
+        squares = np.square(named[title][E_T] - e_t)
         means = np.array([squares[:, at <= limit].mean(axis=1) for limit in limits])
         named[f"{model}, rms"] = {LIMIT: limits} | dict(zip(RMS, np.sqrt(means).T, strict=True))
     return named
@@ -118,24 +113,19 @@ def _shares(
     return -beside.rebound(model, tolerance, x, *groups).velocity / np.asarray(x)
 
 
-def halves(points: Mapping[str, Sequence[Any]], mass_ratio: float) -> tuple[Array, Array]:
+def halves(measured: Columns, mass_ratio: float) -> tuple[Array, Array]:
     """e_t that follows from the change of the centre's velocity alone, and of the spin alone.
 
     The impulse of friction changes the velocity of the contact point `mass_ratio` times as much as
-    that of the centre; the spin has the rest. `points` has the columns that `curves` needs.
+    that of the centre; the spin has the rest. `measured` has columns of data/cross2014/impacts.csv.
 
-    >>> points = {"angle": [45.0], "tangential_before": [1.0], "velocity_ratio": [0.5],
-    ...           "spin_change": [0.5]}
-    >>> velocity, spin = halves(points, 3.5)
-    >>> round(float(velocity[0]), 2), round(float(spin[0]), 2)
-    (0.75, -0.01)
+    >>> impact = {"angle": 45.0, "tangential_before": 1.0, "velocity_ratio": 0.5}
+    >>> impact["spin_change"] = 0.5
+    >>> [round(float(half), 2) for half in halves(impact, 3.5)]
+    [0.75, -0.01]
     """
-    angle, before, ratio, spin = (
-        np.array(points[key], float)
-        for key in ("angle", "tangential_before", "velocity_ratio", "spin_change")
-    )
-    angle = np.radians(angle)
+    angle, before = np.radians(measured["angle"]), measured["tangential_before"]
     # Both over the normal velocity before the impact, as `before` is.
-    of_velocity = (1 - ratio) * np.tan(angle)
-    of_spin = spin / np.cos(angle) / (mass_ratio - 1)
+    of_velocity = (1 - measured["velocity_ratio"]) * np.tan(angle)
+    of_spin = measured["spin_change"] / np.cos(angle) / (mass_ratio - 1)
     return mass_ratio * of_velocity / before - 1, mass_ratio * of_spin / before - 1

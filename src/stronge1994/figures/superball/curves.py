@@ -1,6 +1,6 @@
 """A superball that is thrown under a table comes back: its path between floor and table."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from stronge1994.csv_tables import Curves
 TOLERANCE = 1e-4
 
 
-def curves(throw: dict[str, Any]) -> Curves:
+def curves(throw: Mapping[str, Any]) -> Curves:
     """Path of a ball between a floor and the underside of a table, and each impact.
 
     `path` has one row before the first impact, one at each, one after the last; velocity and spin
@@ -28,7 +28,7 @@ def curves(throw: dict[str, Any]) -> Curves:
     >>> path["velocity_x [m/s]"].round(1).tolist()  # before, after each impact, at the end
     [6.0, 3.6, -0.5, -2.0, -2.0]
     """
-    before, after = impacts(**throw)
+    before, after = impacts(throw)
     reach = throw["gap"] - 2 * throw["radius"]
     along, up = (
         np.append(before[f"velocity_{axis} [m/s]"][:1], after[f"velocity_{axis}_after [m/s]"])
@@ -52,31 +52,20 @@ def curves(throw: dict[str, Any]) -> Curves:
     return {"path": path}
 
 
-def impacts(
-    friction: float,
-    restitution: float,
-    loss: str,
-    velocity: Sequence[float],
-    spin: float,
-    gap: float,
-    bounces: int,
-    **ball: float,
-) -> tuple[pd.DataFrame, pd.DataFrame]:
+def impacts(throw: Mapping[str, Any]) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Impacts of a throw as tables of a scene, each from the state after the last, and results."""
-    fixed: dict[str, Any] = ball | {"friction": friction, "restitution": restitution}
-    fixed["loss"] = loss
-    state = {"velocity_x": velocity[0], "velocity_y": 0.0, "velocity_z": velocity[1]}
-    state |= {"spin_x": 0.0, "spin_y": -spin, "spin_z": 0.0}
+    of_throw = ("velocity", "spin", "gap", "bounces")
+    ball = {name: value for name, value in throw.items() if name not in of_throw}
+    along, up = throw["velocity"]
+    state = {"velocity_x": along, "velocity_y": 0.0, "velocity_z": up}
+    state |= {"spin_x": 0.0, "spin_y": -throw["spin"], "spin_z": 0.0}
     solver, rows, results = scene.Solver(TOLERANCE), [], []
-    for bounce in range(bounces):
+    for bounce in range(throw["bounces"]):
         floor = bounce % 2 == 0
         normal = {"normal_x": 0.0, "normal_y": 0.0, "normal_z": 1.0 if floor else -1.0}
-        row: dict[str, Any] = {
-            header(name): value for name, value in (fixed | state | normal).items()
-        }
-        row = {"id": f"{bounce + 1}, {'floor' if floor else 'table'}", **row}
-        rows.append(row)
-        results.append(solver.solve(pd.DataFrame([row])))
+        known = {header(name): value for name, value in (ball | state | normal).items()}
+        rows.append({"id": f"{bounce + 1}, {'floor' if floor else 'table'}", **known})
+        results.append(solver.solve(pd.DataFrame(rows[-1:])))
         after = results[-1].iloc[0]
         state = {name: float(after[header(name, "_after")]) for name in state}
     return pd.DataFrame(rows), pd.concat(results, ignore_index=True)

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from planarimpact.ground.arrays import Booleans
-from stronge1994.csv_tables import Curves
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.shared.drawing import beside, house_style
 from stronge1994.figures.shared.drawing.beside import ELASTIC_IN_SHEAR, POINT, STYLES
@@ -20,9 +20,8 @@ SETS = ("calibration", "other restitutions")
 MODELS = (*beside.MODELS, ELASTIC_IN_SHEAR)
 
 
-def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
+def _distances(curves: Curves, runs: Columns) -> Curves:
     """Root mean square distance of each model over all incidences, by restitution."""
-    runs = points[SPHERES]["columns"]
     alike = np.isin(runs["set"], SETS)
     rows = [np.flatnonzero(alike & (runs["contact"] == one)) for one in np.unique(runs["contact"])]
     # Contacts that were solved at fewer incidences would have another mean.
@@ -34,7 +33,7 @@ def drawn_curves(curves: Curves, settings: Settings, points: Points) -> Curves:
         square = (curves[f"{model}, runs"][W] - runs[W]) ** 2
         rms = np.sqrt([square[own].mean() for own in rows])
         tables[f"rms of {model}"] = {E: e, RMS: rms}
-    return curves | tables
+    return tables
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -42,6 +41,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     figure = house_style.new(6.3)
     panels = figure.subplots(2, 2)
     runs, contact = points[SPHERES], settings["contact"]
+    curves = curves | _distances(curves, runs["columns"])
     for letter, axes, e in zip("ab", panels[0], contact["restitution"], strict=True):
         axes.axhline(0, **house_style.GUIDE)
         beside.lines(axes, curves, name("e", e), X, W, MODELS)

@@ -1,6 +1,7 @@
-"""Models of an impact that loses energy, solved at measured points with uncertain parameters."""
+"""Models of an impact that loses energy: beside curves, and at measured points."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -9,11 +10,12 @@ from planarimpact.bodies import Material
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import EACH, SIGNS, shifted
+from stronge1994.curve_names import EACH, SIGNS, name, shifted
 
+# Continua that lose energy by relaxation, with one time in shear and compression, or by yield.
+CONTINUA = ("continuum.viscous", "continuum.plastic")
 MODELS = (
-    "continuum.viscous",
-    "continuum.plastic",
+    *CONTINUA,
     "lumped.viscous",
     "lumped.unloading-stiffness",
     "lumped.hysteretic",
@@ -28,6 +30,24 @@ def rebound(model: str, tolerance: float, *groups: ArrayLike) -> Rebound:
     """
     settings = {"tolerance": tolerance} if "tolerance" in models.get(model).settings else {}
     return models.rebound(model, *groups, **settings)
+
+
+def rebounds_of_continua(
+    continua: Mapping[str, Any] | None, x: ArrayLike, mass_ratio: float, stiffness_ratio: float
+) -> Iterator[tuple[str, Rebound]]:
+    """Names of curves and rebounds of each continuum at each restitution, if `continua` is set.
+
+    >>> settings = {"models": ["continuum.viscous"], "restitution": [0.5], "tolerance": 1e-3}
+    >>> ((name, found),) = rebounds_of_continua(settings, [6.0], 3.5, 1.21)
+    >>> name, found.velocity.tolist()
+    ('continuum.viscous, e = 0.5', [0.75])
+    """
+    if not continua:
+        return
+    for e in continua["restitution"]:
+        for model in continua["models"]:
+            found = rebound(model, continua["tolerance"], x, mass_ratio, stiffness_ratio, e)
+            yield f"{model}, {name('e', e)}", found
 
 
 def stiffness_ratio(nu: float) -> float:
@@ -73,6 +93,6 @@ def with_sigma(
     sigma = np.sqrt(np.sum(np.square([other - stated for other in others]), axis=0))
     named = {curve: labels | {column: stated}}
     for sign in SIGNS:
-        name = shifted(curve, f"{EACH}{point}'s parameters", sign)
-        named[name] = labels | {column: stated + sign * sigma}
+        title = shifted(curve, f"{EACH}{point}'s parameters", sign)
+        named[title] = labels | {column: stated + sign * sigma}
     return named

@@ -5,15 +5,11 @@ Nothing here solves: pictures are made from tables alone.
 
 import importlib
 from collections.abc import Mapping
-from types import ModuleType
 from typing import Any
 
-from matplotlib.figure import Figure
-
 from stronge1994 import csv_tables, reference_data
-from stronge1994.csv_tables import Curves
 from stronge1994.figures.shared.drawing import house_style, slide
-from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings
+from stronge1994.figures.shared.drawing.house_style import Points, Series
 
 
 def draw(
@@ -25,35 +21,20 @@ def draw(
     """
     module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
     given = csv_tables.read(curves_path), plan["settings"], series(plan["overlays"])
-    house_style.save(drawn(module, *given), pictures["svg"], pictures["png"])
+    house_style.save(module.draw(*given), pictures["svg"], pictures["png"])
     if plan["slide"]:
         grounds = {name: pictures[name] for name in ("light", "dark")}
-        slide.save(drawn(module, *given), **plan["slide"], **grounds)
-
-
-def drawn(module: ModuleType, curves: Curves, settings: Settings, points: Points) -> Figure:
-    """The picture that a module draws.
-
-    A module may have `drawn_curves`, which adds to the curves what it draws beside their columns,
-    and `drawn_series`, which converts reference series.
-    """
-    if hasattr(module, "drawn_series"):
-        points = {name: module.drawn_series(name, one) for name, one in points.items()}
-    if hasattr(module, "drawn_curves"):
-        curves = module.drawn_curves(curves, settings, points)
-    picture: Figure = module.draw(curves, settings, points)
-    return picture
+        slide.save(module.draw(*given), **plan["slide"], **grounds)
 
 
 def series(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
     """Reference series as a drawing gets them, from the overlays of its plan."""
     return {
-        name: _points(name, entry) if "kind" in entry else dict(entry)
-        for name, entry in overlays.items()
+        name: _points(entry) if "kind" in entry else dict(entry) for name, entry in overlays.items()
     }
 
 
-def _points(name: str, entry: Mapping[str, Any]) -> Series:
+def _points(entry: Mapping[str, Any]) -> Series:
     columns = reference_data.arrays(entry)
     printed = [reference_data.sigma_column(entry[axis]) for axis in "xy"]
     return {

@@ -3,17 +3,14 @@
 A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py has a function
 `draw(curves, settings, points)`, which returns a Figure:
 
-- `curves`, `{curve: {column: array}}`: the result of curves.py beside it, and the curves that a
-  function `drawn_curves` of drawing.py adds. `line` draws two columns of a curve and takes the
-  labels of the axes and of the legend from their names;
+- `curves`, `{curve: {column: array}}`: the result of curves.py beside it. `line` draws two columns
+  of a curve and takes the labels of the axes and of the legend from their names;
 - `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
   table they have no more than the name;
 - `points`, the series of data/ that are at hand, `{"source/series": {...}}` with arrays `x` and
   `y`, their `sigma`, the names of both columns as `axes`, all `columns` and the source's
   `parameters`, of those that were computed only what figure.yaml `draws`; and stated facts, as in
   source.yaml. `measured` draws such points.
-
-A drawing.py may also have `drawn_series`, which converts such a series.
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
@@ -22,11 +19,10 @@ What this repository adds to a figure of the paper has its own part of the legen
 several restitutions, `of_restitution` gives their lines; where it shows one, a pattern is a model.
 """
 
-import itertools
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import IO, Any, TypeAlias, TypeVar
+from typing import IO, Any, TypeAlias
 
 import matplotlib
 import numpy as np
@@ -49,7 +45,6 @@ Settings: TypeAlias = dict[str, Any]
 Series: TypeAlias = dict[str, Any]
 Points: TypeAlias = dict[str, Series]
 Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
-_Item = TypeVar("_Item")
 
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
 WIDTH = 5.0
@@ -213,11 +208,6 @@ def line(
     return axes.plot(curve[x], height, **{"label": symbols(name)} | style)[0]
 
 
-def patterned(items: Iterable[_Item]) -> Iterable[tuple[_Item, Dashes]]:
-    """Each item with its own pattern of line."""
-    return zip(items, itertools.cycle(DASHES), strict=False)
-
-
 def of_restitution(e: float) -> Dashes:
     """Pattern of a restitution: solid for 1, dashes that shorten with e, dash-dot for 0.
 
@@ -227,15 +217,6 @@ def of_restitution(e: float) -> Dashes:
     if e == 1:
         return "-"
     return (0, (2 + 6 * e, 2)) if e > 0 else DASHES[2]
-
-
-def restitutions(values: Iterable[float]) -> str:
-    """Label for several restitutions.
-
-    >>> restitutions([0.5, 0.8])
-    '$e = 0.5, 0.8$'
-    """
-    return f"$e = {', '.join(f'{e:g}' for e in values)}$"
 
 
 def key(label: str, **style: Any) -> Line2D:
@@ -301,21 +282,20 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
     return list(entries.values())
 
 
-def draw_lossy_continua(
-    axes: Axes, curves: Curves, x: str, y: str, condition: str, end: str = ""
-) -> Entries:
+def lossy_continua(axes: Axes, curves: Curves, x: str, y: str, end: str = "") -> Entries:
     """Draw the continua that lose energy, and return entries of the legend.
 
     They are known by the beginnings of their names; only those are drawn whose names end with
-    `end`. The legend adds `condition` to the name of each model.
+    `end`. An entry has the last part of the name.
     """
-    entries = []
-    for model, (label, style) in LOSSY_CONTINUA.items():
-        own = [name for name in curves if name.startswith(f"{model}, ") and name.endswith(end)]
-        label = f"{label}, {condition}"
-        lines = [line(axes, curves, name, x, y, label=label, **style) for name in own]
-        entries += lines[:1]
-    return entries
+    entries = {}
+    for name in curves:
+        model, _, rest = name.partition(", ")
+        if model in LOSSY_CONTINUA and name.endswith(end):
+            words, style = LOSSY_CONTINUA[model]
+            label = f"{words}, {symbols(rest.split(', ')[-1])}"
+            entries[label] = line(axes, curves, name, x, y, label=label, **style)
+    return list(entries.values())
 
 
 def measured(axes: Axes, series: Series, **style: Any) -> Artist:

@@ -31,8 +31,6 @@ def save(figure: Figure, panel: str, title: str, light: str, dark: str) -> None:
     kept.set_subplotspec(figure.add_gridspec()[0])
     labels = (re.sub(r"^\(\w\) ", "", label) for label in (kept.get_ylabel(), kept.get_title()))
     kept.set(**dict(zip(("ylabel", "title"), labels, strict=True)))
-    for text in kept.texts:
-        text.set_in_layout(True)
     for axis in (kept.xaxis, kept.yaxis):
         axis.label.set_visible(True)
         axis.set_tick_params(labelbottom=True, labelleft=True)
