@@ -118,7 +118,7 @@ def diverging(first_run, config, inventory, monkeypatch):
         wrong = _wrong(_settings(figure, config, inventory), parameter, size)
         module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
         curves = READ(first_run[0] / f"results/curves/{figure}.csv")
-        own = [n for n in curves if not (curve_names.is_shifted(n) or curve_names.is_printed(n))]
+        own = [n for n in curves if not (curve_names.is_shifted(n) or curve_names.AS_PRINTED in n)]
         solved = curves | dict(zip(own, module.curves(**wrong).values(), strict=True))
         monkeypatch.setattr(judging_rows, "read", lambda _: solved)
         entries = {name: config["comparisons"][name] for name in asked}

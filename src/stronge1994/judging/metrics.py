@@ -179,7 +179,7 @@ def _contraction(entry: Entry, curves: Curves) -> Measured:
     parts = []
     for name, columns in curves.items():
         # The printed equations need not obey this law.
-        obeys = not (curve_names.is_printed(name) or curve_names.is_shifted(name))
+        obeys = not (curve_names.AS_PRINTED in name or curve_names.is_shifted(name))
         if obeys and name.startswith(entry.get("beginning", "")) and {x, y} <= set(columns):
             order = np.argsort(columns[x], kind="stable")
             arrive, leave = (np.abs(np.diff(columns[axis][order])) for axis in (x, y))

@@ -14,6 +14,7 @@ from stronge1994.plan.config import (
     table_of,
 )
 
+
 def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
     """Settings of one figure: shared physics and its own, an experiment by its parameters."""
     stated = figures.stated()[figure]

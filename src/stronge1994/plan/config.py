@@ -71,15 +71,16 @@ def _of_scenes(scenes: Any) -> dict[str, Entry]:
 
 def schema() -> dict[str, Any]:
     """JSON schema of the whole config, with the settings of each figure."""
-    whole = reference_data.load_yaml(figures.PROJECT / "workflow/schemas/config.schema.yaml")
-    stated = figures.stated().items()
-    whole["properties"]["figures"] = {
+    whole, stated = figures.schema("config"), figures.stated().items()
+    own = {
         "type": "object",
         "additionalProperties": False,
         "properties": {name: figures.schema_of(figure["settings"]) for name, figure in stated},
     }
-    whole["$defs"] |= figures.definitions()
-    return whole
+    return whole | {
+        "properties": whole["properties"] | {"figures": own},
+        "$defs": whole["$defs"] | figures.definitions(),
+    }
 
 
 def with_values(node: Any) -> Any:

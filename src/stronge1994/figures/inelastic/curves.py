@@ -74,9 +74,10 @@ def curves(
     """What each model says of the measured pairs, of every restitution, and of every incidence.
 
     `points` has the columns of data/cornell1999/pairs.csv; `materials` has the parameters of its
-    source.yaml, moduli in Pa, and `uncertainty` one sigma of each. For each of `MODELS` there are `<model>, pairs`; `<model>,
-    pairs, <spread>` for all other `SPREADS`; `<model>, nu = ...` for both edges of the band; and
-    `<model>, e = ...`. Each of the pairs has two more, `...; each pair's parameters +- 1 sigma`:
+    source.yaml, moduli in Pa, and `uncertainty` one sigma of each. For each of `MODELS` there are
+    `<model>, pairs`; `<model>, pairs, <spread>` for all other `SPREADS`; `<model>, nu = ...` for
+    both edges of the band; and `<model>, e = ...`. Each of the pairs has two more, `...; each
+    pair's parameters +- 1 sigma`:
     beta_0 with the standard deviation that it has from restitution, friction and moduli, which are
     each pair's own. A smooth curve joins `solved` incidences of each contact.
 
