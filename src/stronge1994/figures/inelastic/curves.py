@@ -77,9 +77,9 @@ def curves(
     source.yaml, moduli in Pa, and `uncertainty` one sigma of each. For each of `MODELS` there are
     `<model>, pairs`; `<model>, pairs, <spread>` for all other `SPREADS`; `<model>, nu = ...` for
     both edges of the band; and `<model>, e = ...`. Each of the pairs has two more, `...; each
-    pair's parameters +- 1 sigma`:
-    beta_0 with the standard deviation that it has from restitution, friction and moduli, which are
-    each pair's own. A smooth curve joins `solved` incidences of each contact.
+    pair's parameters +- 1 sigma`: beta_0 with the standard deviation that it has from restitution,
+    friction and moduli, which are each pair's own. A smooth curve joins `solved` incidences of each
+    contact.
 
     >>> pairs = {"pair": ["glass"], "body": ["glass"], "other": ["glass"], "restitution": [0.97],
     ...          "restitution_uncertainty": [0.01], "friction": [0.1],
