@@ -44,9 +44,7 @@ def refuse_not_finite(named: Mapping[str, Columns]) -> None:
                 )
 
 
-def write(
-    path: Path, named: Mapping[str, Mapping[str, Iterable[Any]]], first: str = "curve"
-) -> None:
+def write(path: Path, named: Mapping[str, Mapping[str, Iterable[Any]]]) -> None:
     """Write `{name: {column: array}}`; a column that a curve lacks stays empty."""
     columns = list(dict.fromkeys(column for curve in named.values() for column in curve))
     rows: list[list[str]] = []
@@ -59,7 +57,7 @@ def write(
         ]
         length = max(len(cell) for cell in cells if cell is not None)
         rows += [[name, *(cell[i] if cell else "" for cell in cells)] for i in range(length)]
-    write_rows(path, [first, *columns], rows)
+    write_rows(path, ["curve", *columns], rows)
 
 
 def write_rows(path: Path, header: Sequence[str], rows: Iterable[Iterable[Any]]) -> None:

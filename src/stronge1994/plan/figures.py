@@ -14,16 +14,15 @@ from stronge1994 import reference_data
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 FOLDER = Path(__file__).parents[1] / "figures"
 PROJECT = Path(__file__).parents[3]
-SHARED = "shared"  # folder beside the figures, of code for several of them
 
 
 @functools.cache
 def stated() -> dict[str, Stated]:
     """Every figure.yaml, checked; the figures of the paper first, by number."""
-    # A folder that git has emptied may still hold bytecode, in a folder of its own.
+    # `shared` is code for several figures. A folder that git has emptied may still hold bytecode.
     names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
     contents = {}
-    for name in sorted(names - {SHARED, "__pycache__"}, key=place):
+    for name in sorted(names - {"shared", "__pycache__"}, key=place):
         path = _file(name)
         if not re.fullmatch("[a-z][a-z0-9_]*", name):
             raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")

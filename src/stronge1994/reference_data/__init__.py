@@ -70,7 +70,10 @@ def load(folder: Path, schema: Schema) -> Source:
         series["path"] = None
         if series["kind"] != "awaited":
             series["path"] = str(folder / f"{name}.csv")
-            _refuse_other_number(f"{path}: series.{name}", series)
+            count = len(next(iter(arrays(series).values())))
+            if count != series.get("points"):
+                where = f"{path}: series.{name}.points = {series.get('points')}"
+                raise SourceError(f"{where}: {series['path']} has {count} points")
     own = {Path(s["path"]).name for s in source.get("series", {}).values() if s["path"]}
     known = {"source.yaml", *own, *source.get("made_with", [])}
     for name in source.get("made_with", []):
@@ -93,15 +96,6 @@ def load(folder: Path, schema: Schema) -> Source:
 def _visible(folder: Path) -> set[str]:
     """Names in a folder, without hidden files and READMEs."""
     return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
-
-
-def _refuse_other_number(where: str, series: Series) -> None:
-    """Refuse a file that has more or fewer points than source.yaml says."""
-    count = len(next(iter(arrays(series).values())))
-    if count != series.get("points"):
-        raise SourceError(
-            f"{where}.points = {series.get('points')}: {series['path']} has {count} points"
-        )
 
 
 def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
