@@ -47,16 +47,12 @@ def refuse_not_finite(named: Mapping[str, Columns]) -> None:
 def write(path: Path, named: Mapping[str, Mapping[str, Iterable[Any]]]) -> None:
     """Write `{name: {column: array}}`; a column that a curve lacks stays empty."""
     columns = list(dict.fromkeys(column for curve in named.values() for column in curve))
-    rows: list[list[str]] = []
+    rows: list[list[Any]] = []
     for name, curve in named.items():
-        cells = [
-            [str(value.item() if hasattr(value, "item") else value) for value in curve[column]]
-            if column in curve
-            else None
-            for column in columns
-        ]
-        length = max(len(cell) for cell in cells if cell is not None)
-        rows += [[name, *(cell[i] if cell else "" for cell in cells)] for i in range(length)]
+        own = {column: np.asarray(values).tolist() for column, values in curve.items()}
+        empty = [""] * len(next(iter(own.values())))
+        cells = (own.get(column, empty) for column in columns)
+        rows += [[name, *row] for row in zip(*cells, strict=True)]
     write_rows(path, ["curve", *columns], rows)
 
 

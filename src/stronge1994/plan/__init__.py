@@ -23,7 +23,7 @@ def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any
     for key, setting in stated["settings"].items():
         if setting.get("allowed") == "source":
             parameters = inventory[own[key]]["parameters"]
-            known = {name: parameters[name] for name in setting.get("parameters", parameters)}
+            known = {name: parameters[name] for name in setting["parameters"]}
             chosen[key] = {name: parameter["value"] for name, parameter in known.items()}
             if setting.get("uncertain"):
                 sigmas = {name: parameter["uncertainty"] for name, parameter in known.items()}
