@@ -18,10 +18,11 @@ from stronge1994.figures.shared.drawing import slide
 from stronge1994.plan import figures
 from stronge1994.run import plans
 
-# Curves that are only compared, as patterns; of `trade` only some are tried.
+# Curves that are only compared, as patterns; of `inelastic` and `trade` only some are tried.
 NOT_DRAWN = {
     "fig5": "finite elements",
     "fig9": "no tangential compliance, (mu = 0.1|.*, e = 0.5)",
+    "inelastic": "pairs, to",
     "rubber_sphere": "impacts|stated|rms",
     "stability": "contacts",
     "trade": "steps|e = 0.8",
