@@ -16,7 +16,7 @@ TANGENTIAL: Style = {
 ENLARGED = 2
 # Stated angles of the largest tangential force: who stated it, and the pattern of its line.
 STATED = {
-    "stronge1994/peak_angle_mu_0.18": ("stated in the paper", "-"),
+    "stronge1994/peak_angle_mu_0.18": ("stated in the paper, near", "-"),
     "lewis_rogers1988/peak_angle": ("measured, about", house_style.DASHES[3]),
 }
 
