@@ -29,7 +29,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     diamond = POINT | {"marker": "D", "label": "stated, 2010 and 2002"}
     diamonds = house_style.measured(axes, stated, **diamond)
     axes.set_xlim(0, settings["incidence"][1])
-    axes.set_title(rf"$e_t$; lines: models at $e = {settings['restitution']:g}$")
+    axes.set_title("$e_t$; lines: models")
     house_style.legend_below(figure, models, [circles, halves, diamonds])
     return figure
 

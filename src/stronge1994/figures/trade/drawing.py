@@ -20,7 +20,6 @@ ERROR_LABEL, TIME_LABEL = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an im
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 # Range of errors that uncertain inputs hide.
 HIDDEN: Style = {"color": "0.9", "linewidth": 0, "zorder": 0.5, "label": r"uncertain $e$ and $\mu$"}
-FRONT: Style = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 
 
 def _mark(label: str, marker: str, colour: str, filled: bool = True) -> Style:
@@ -88,7 +87,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         _draw_errors(axes, timed, f"time_{batch} [s]", numbers=letter == "a")
         if OTHERS in points and batch == BATCH_OF_OTHERS:
             _draw_others(axes, timed, f"time_{batch} [s]", points[OTHERS]["columns"])
-        _draw_front(axes, timed, f"time_{batch} [s]")
+        axes.margins(0.15, 0.08)
         axes.set(title=f"({letter}) $e = {e:g}$, {loss or 'elastic'} continuum", xlabel=TIME_LABEL)
         axes.set_ylabel(ERROR_LABEL, visible=letter != "c")
     below = grid[2, :].subgridspec(1, 2, width_ratios=[2, 3])
@@ -163,31 +162,6 @@ def _draw_others(axes: Axes, curves: Curves, time: str, others: Columns) -> None
             axes.plot(times[rows], others[ERROR][same][rows], **MARKS[code])
 
 
-def _draw_front(axes: Axes, curves: Curves, time: str) -> None:
-    """Draw the Pareto front: a point above and to the right of it is worse in both."""
-    of_any_pair = [curve for curve in curves.values() if curve[MODEL][0] != SPLINE]
-    x, y = ([curve[column][0] for curve in of_any_pair] for column in (time, ERROR))
-    axes.margins(0.15, 0.08)
-    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-    if best := front(x, y):
-        x_front = [x[best[0]], *(x[i] for i in best), right]
-        axes.step(x_front, [high, *(y[i] for i in best), y[best[-1]]], where="post", **FRONT)
-    axes.set(xlim=(left, right), ylim=(low, high))
-
-
-def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
-    """Indices of the Pareto front, the fastest first: no other point is as fast and as accurate.
-
-    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
-    [1, 2, 0]
-    """
-    indices: list[int] = []
-    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
-        if not indices or error[index] < error[indices[-1]]:
-            indices.append(index)
-    return indices
-
-
 def _draw_growth(axes: Axes, curves: Curves, batches: Sequence[int]) -> None:
     """Draw time against the size of batch, with the finest setting of each model."""
     for model, dashes in zip(GROWTH, ("-", *house_style.DASHES), strict=True):
@@ -202,7 +176,7 @@ def _add_legend(figure: Figure, cell: SubplotSpec) -> None:
     axes.axis("off")
     styles = {str(style["label"]): style for style in MARKS.values()}
     entries = [house_style.key(**style) for style in styles.values()]
-    entries += [Patch(**HIDDEN), house_style.key("Pareto front", **FRONT)]
+    entries.append(Patch(**HIDDEN))
     axes.legend(
         handles=entries,
         loc="center",
