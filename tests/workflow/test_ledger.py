@@ -19,7 +19,6 @@ from stronge1994.ledger import checking, contact, entries, finding, outcome
 from stronge1994.pages import ledger_page
 from stronge1994.plan import config as configuration
 from stronge1994.printed import dissipation, slip
-from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
 FILE = "data/stronge1994/ledger.yaml"
