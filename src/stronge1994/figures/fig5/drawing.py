@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from planarimpact import Regime
 from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import CONTINUA
 from stronge1994.figures.shared.drawing import beside, house_style
-from stronge1994.figures.shared.drawing.beside import CONTINUA
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"

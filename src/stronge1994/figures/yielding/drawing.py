@@ -6,9 +6,9 @@ from matplotlib.figure import Figure
 
 from planarimpact.ground.arrays import Booleans
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import ELASTIC_IN_SHEAR, name
 from stronge1994.figures.shared.drawing import beside, house_style
-from stronge1994.figures.shared.drawing.beside import ELASTIC_IN_SHEAR, POINT, STYLES
+from stronge1994.figures.shared.drawing.beside import POINT, STYLES
 from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings
 
 X, W, E = "incidence [mu v2(0)]", "velocity [mu v2(0)]", "restitution [1]"
