@@ -8,6 +8,12 @@ AS_PRINTED, NO_SOLUTION = "as printed", "no solution as printed"
 SIGNS = {1: "+", -1: "-"}
 # Beginning of the name of a parameter of which each point of the curve has its own value.
 EACH = "each "
+# Continua that lose energy by relaxation, with one time in shear and compression, or by yield; and
+# all models that are held against measurements below e = 1.
+CONTINUA = ("continuum.viscous", "continuum.plastic")
+MODELS = (*CONTINUA, "lumped.viscous", "lumped.unloading-stiffness", "lumped.hysteretic")
+# Models without loss, and for comparison alone, see `planarimpact.continuum.rebound`.
+ELASTIC, ELASTIC_IN_SHEAR = "continuum", "continuum.plastic-elastic-shear"
 SCENE = "scene_"  # before the name of a scene, among what is judged
 
 GREEK = {"mu": "μ", "nu": "ν"}

@@ -7,12 +7,12 @@ import pytest
 
 from planarimpact import models
 from stronge1994 import plan, reference_data
+from stronge1994.curve_names import CONTINUA
 from stronge1994.figures.fig5 import curves as fig5
 from stronge1994.figures.fig6 import curves as fig6
 from stronge1994.figures.fig6 import drawing as draw_fig6
 from stronge1994.figures.fig9 import curves as fig9
 from stronge1994.figures.fig9 import drawing as draw_fig9
-from stronge1994.figures.shared.curves.beside import CONTINUA
 from stronge1994.judging.metrics import measure
 from stronge1994.plan import config as configuration
 

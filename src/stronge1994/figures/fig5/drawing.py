@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from planarimpact import Regime
 from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import CONTINUA
 from stronge1994.figures.shared.drawing import beside, house_style
-from stronge1994.figures.shared.drawing.beside import CONTINUA
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -27,20 +27,17 @@ ADDED = {
         POINT | {"color": house_style.VERMILLION, "marker": "s"},
     ),
 }
-# These points are measured against the angle: they must be converted to the axes of the figure.
-MEASURED_ANGLES = "kharaz2001/tangential_restitution"
+KHARAZ = "kharaz2001/tangential_restitution"
 SHOTS = {
-    MEASURED_ANGLES: (
+    KHARAZ: (
         "measured (Kharaz et al.)",
         {"color": house_style.BLUE, "marker": "o", "markersize": 3},
     )
 }
 
 
-def _converted(name: str, series: Series) -> Series:
+def _converted(series: Series) -> Series:
     """Measurements against the angle, converted to the axes of the figure with their errors."""
-    if name != MEASURED_ANGLES:
-        return series
     groups = [series["parameters"][key] for key in ("mass_ratio", "friction")]
     angle, ratio = series["x"], series["y"]
     angle_error, ratio_error = series["sigma"]
@@ -68,7 +65,8 @@ def contact_velocities(
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) the paper's curves and series, and additions; (b) an experiment with its models."""
-    points = {name: _converted(name, series) for name, series in points.items()}
+    if KHARAZ in points:
+        points = points | {KHARAZ: _converted(points[KHARAZ])}
     figure = house_style.new(7.0)
     axes, shots = figure.subplots(2, 1, sharex=True, height_ratios=[5, 3.4])
     printed = (1 + settings["restitution"]) * settings["mass_ratio"]

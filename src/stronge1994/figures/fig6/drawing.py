@@ -23,7 +23,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     added = house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")
     continua = settings["continua"]
     for e in continua["restitution"]:
-        added += beside.lines(axes, curves, name("e", e), X, Y, continua["models"])
+        note = f", $e = {e:g}$"
+        added += beside.lines(axes, curves, name("e", e), X, Y, continua["models"], note)
     axes.set_xlim(settings["incidence"])
     house_style.legend_below(figure, paper, added, titles=("in the paper", "added here"))
     return figure

@@ -33,8 +33,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     continua = settings["continua"]
     for e in continua["restitution"]:
         for mu in settings["friction"]:
-            end = f"{name('mu', mu)}, {name('e', e)}"
-            lines = beside.lines(axes, curves, end, X, Y, continua["models"])
+            end, note = f"{name('mu', mu)}, {name('e', e)}", f", $e = {e:g}$"
+            lines = beside.lines(axes, curves, end, X, Y, continua["models"], note)
         added += lines
     added += [house_style.line(below, curves, pair, X, Y, **PALE) for pair in strokes][:1]
     for pair, style in strokes.items():

@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import ELASTIC, name
 from stronge1994.figures.shared.drawing import beside, house_style
-from stronge1994.figures.shared.drawing.beside import ELASTIC, POINT
+from stronge1994.figures.shared.drawing.beside import POINT
 from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings
 
 X, E_T = "incidence [mu v2(0)]", "tangential_restitution [1]"
@@ -29,7 +29,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     diamond = POINT | {"marker": "D", "label": "stated, 2010 and 2002"}
     diamonds = house_style.measured(axes, stated, **diamond)
     axes.set_xlim(0, settings["incidence"][1])
-    axes.set_title("$e_t$; lines: models")
+    axes.set_title(rf"$e_t$; lines: models at $e = {settings['restitution']:g}$")
     house_style.legend_below(figure, models, [circles, halves, diamonds])
     return figure
 

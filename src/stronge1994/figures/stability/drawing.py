@@ -34,7 +34,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
             style = {"color": house_style.BLACK, "linewidth": 0.7, "linestyle": dashes, "zorder": 3}
             below.axline((0, -fewer), slope=1, label=label, **style)
         above.set(xscale="log", xlabel=r"$\omega/\Omega$", title=f"({first}) {title}")
-        below.set(xlim=(-0.8, 16.8), xticks=DIGITS, xlabel="digits allowed", title=f"({second})")
+        below.set(xlim=(-0.8, 16.8), xticks=DIGITS, xlabel="digits allowed")
+        below.set_title(f"({second}) {title}")
         for axes in (above, below):
             axes.set(ylim=(-0.8, 16.8), yticks=DIGITS, ylabel="")
     for axes in panels[:, 0]:
