@@ -206,7 +206,7 @@ DAMAGE = [
     ("results/ledger.csv", "", "results/ledger.csv"),
     ("results/ledger.csv", ",".join(outcome.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
     ("results/which_model.csv", "a,b\n1\n", "results/which_model.csv, line 2"),
-    ("results/residuals/fig5.csv", "comparison\nfig5-lumped-exact\n", "Fig. 5: "),
+    ("results/residuals/fig5.csv", "comparison\nfig5-lumped-fem-initial-stick\n", "Fig. 5: "),
     ("results/residuals/fig5.csv", None, "residuals/fig5.csv"),
     ("figures/fig6.svg", None, "fig6.svg"),
 ]

@@ -17,9 +17,8 @@ from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import MODELS, name
 from stronge1994.figures.shared.curves import beside
-from stronge1994.figures.shared.curves.beside import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
 # Slopes from which the fit starts. Friction never accelerates the body, so |w| is at most x.

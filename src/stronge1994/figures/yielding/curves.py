@@ -9,13 +9,13 @@ import numpy as np
 from planarimpact import continuum
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from planarimpact.ground.arrays import Array, ArrayLike
+from stronge1994 import curve_names
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import ELASTIC_IN_SHEAR, name
 from stronge1994.figures.shared.curves import beside
 from stronge1994.figures.shared.curves.sampling import vertices
 
-ELASTIC_IN_SHEAR = "continuum.plastic-elastic-shear"  # no model of the registry
-MODELS = (*beside.MODELS, ELASTIC_IN_SHEAR)
+MODELS = (*curve_names.MODELS, ELASTIC_IN_SHEAR)
 # Columns of data/finite_elements/spheres.csv that tell its rows apart.
 LABELS = ("set", "contact", "run")
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
