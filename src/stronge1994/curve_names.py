@@ -72,22 +72,9 @@ def shifted_by(curve: str | None, names: Iterable[str]) -> list[tuple[str, str]]
     >>> shifted_by("a", names), shifted_by("b", names)
     ([], [('b; friction + 1 sigma', 'b; friction - 1 sigma')])
     """
-    start, end = f"{curve}; ", f" {SIGNS[1]} 1 sigma"
-    own = [name for name in names if name.startswith(start) and name.endswith(end)]
-    parameters = [name.removeprefix(start).removesuffix(end) for name in own]
-    return [
-        (shifted(f"{curve}", parameter, 1), shifted(f"{curve}", parameter, -1))
-        for parameter in parameters
-    ]
-
-
-def is_printed(name: str) -> bool:
-    """Whether a curve holds what the printed equations give.
-
-    >>> is_printed("no solution as printed, e = 1"), is_printed("e = 1")
-    (True, False)
-    """
-    return AS_PRINTED in name
+    end = f" {SIGNS[1]} 1 sigma"
+    ups = [up for up in names if up.startswith(f"{curve}; ") and up.endswith(end)]
+    return [(up, f"{up.removesuffix(end)} {SIGNS[-1]} 1 sigma") for up in ups]
 
 
 def is_shifted(name: str) -> bool:
