@@ -34,10 +34,10 @@ def _mark(label: str, marker: str, colour: str, filled: bool = True) -> Style:
 
 
 # A colour stands for what takes the energy: black for the normal element of the paper, blue for
-# viscosity, vermillion for plastic flow, green for an elastic contact. Grey formulas have none, and
+# viscosity, orange for plastic flow, green for an elastic contact. Grey formulas have none, and
 # other codes are purple.
 BLACK, ELASTIC = house_style.BLACK, house_style.GREEN
-VISCOUS, PLASTIC, OTHER = house_style.BLUE, house_style.VERMILLION, house_style.PURPLE
+VISCOUS, PLASTIC, OTHER = house_style.BLUE, house_style.ORANGE, house_style.PURPLE
 FORMULA = _mark("formula", "D", house_style.GREY)
 MARKS = {
     "rigid": FORMULA,

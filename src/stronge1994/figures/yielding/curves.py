@@ -5,6 +5,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from planarimpact import continuum
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
@@ -93,13 +94,8 @@ def share_of_elastic(restitution: float) -> tuple[Array, Array]:
     radius, displacement = motion.radius[:, 0], motion.time[: SPRINGS + 1, 0]
     approach = motion.approach[: SPRINGS + 1, 0]
     flow = motion.flowed(approach[:, None])[:, 0]
-    pulled = _integral(np.exp(flow), displacement)
-    force = np.exp(-flow) * (radius * pulled - _integral(pulled, radius))
-    elastic = radius * displacement - _integral(displacement, radius)
+    pulled = cumulative_trapezoid(np.exp(flow), displacement, initial=0)
+    force = np.exp(-flow) * (radius * pulled - cumulative_trapezoid(pulled, radius, initial=0))
+    elastic = radius * displacement - cumulative_trapezoid(displacement, radius, initial=0)
     kept = slice(SPRINGS // KEPT, None, SPRINGS // KEPT)
     return approach[kept] / approach[-1], force[kept] / elastic[kept]
-
-
-def _integral(values: Array, over: Array) -> Array:
-    steps = (values[1:] + values[:-1]) / 2 * np.diff(over)
-    return np.concatenate([[0.0], np.cumsum(steps)])
