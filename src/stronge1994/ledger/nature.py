@@ -4,7 +4,8 @@ All are taken on the paper's sphere, for restitutions from 0.5 to 1 and incidenc
 Figs 5 and 6. Restitution was measured down to 0.6. Of the models one loses its energy in a viscous
 material and one in a material that yields, both with micro-slip. The other two are lumped: the
 paper's, and the same with e^2 zeta^2 in place of zeta^2. That is a ratio of elastic stiffnesses,
-and the elastic normal stiffness of the paper's contact is that of unloading, kappa/e^2.
+and the elastic normal stiffness of the paper's contact is that of unloading, kappa/e^2. Without a
+name a check is asked of the paper's model, which decides the first verdict of some entries.
 """
 
 from itertools import product
