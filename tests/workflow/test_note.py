@@ -60,7 +60,7 @@ def test_other_numbers_become_other_words(numbers):
     other = {name: value + 50 for name, value in numbers.items()} | counted
     lost = words(numbers) - words(other)
     assert f"{numbers['elastic.largest']:.3f}" in lost
-    for name in ("nature.reversal_half.paper", "rubber.lumped.hysteretic.distance"):
+    for name in ("nature.reversal(0.5).paper", "rubber.lumped.hysteretic.distance"):
         assert f"{numbers[name]:.2f}" in lost
 
 
@@ -79,9 +79,14 @@ def test_what_it_says_in_words_is_so(numbers, first_run, inventory):
     for loss in ("viscous", "plastic"):
         limits = [n[f"nature.limit_half.{model}"] for model in (loss, "paper")]
         assert abs(limits[0] - 5.25) < abs(limits[0] - limits[1])
-        near = [n[f"nature.stick_from_{loss}.{m}"] for m in ("paper", "unloading_stiffness")]
+        near = [
+            n[f"nature.distance({loss}, 0.8, 1.21).{m}"] for m in ("paper", "unloading_stiffness")
+        ]
         assert near[0] < near[1]
-        far = [n[f"nature.from_{loss}.{model}"] for model in ("unloading_stiffness", "paper")]
+        far = [
+            n[f"nature.distance({loss}, 0.6, 7).{model}"]
+            for model in ("unloading_stiffness", "paper")
+        ]
         assert far[0] < far[1]
     curves = csv_tables.read(first_run[0] / "results/curves/inelastic.csv")
     pairs = reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])

@@ -5,7 +5,6 @@ This never fails: an entry whose check crashes no longer holds, with the reason 
 
 import traceback
 from collections.abc import Mapping
-from types import SimpleNamespace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -16,7 +15,7 @@ from stronge1994.ledger import entries, finding, outcome
 from stronge1994.ledger.entries import Entry
 from stronge1994.ledger.finding import MODELS
 
-# What the checks of `nature` find, by check and model.
+# What the checks of `nature` find, by check, written as a call, and model.
 Measured: TypeAlias = dict[str, dict[str, float]]
 
 
@@ -29,7 +28,7 @@ def measure(every: Mapping[str, Entry]) -> Measured:
 
 def _of_models(name: str) -> dict[str, float]:
     try:
-        return {model: ledger.run(f"nature.{name}", model).value for model in MODELS}
+        return {model: ledger.run(f"nature.{name}", model=model).value for model in MODELS}
     except Exception:
         traceback.print_exc()
         return dict.fromkeys(MODELS, np.nan)
@@ -51,7 +50,7 @@ def _row(name: str, entry: Entry) -> Row:
     row |= {"entry": name, "range": entry.get("holds", "")}
     if "check" not in entry:
         return row
-    row["test"] = ledger.checks()[entry["check"]]
+    row["test"] = ledger.docstring(entry["check"])
     row["confirms"] = _criterion(entry["confirms"])
     row["between"] = " to ".join(f"{bound:g}" for bound in entry.get("between", []))
     try:
@@ -73,14 +72,14 @@ def _with_nature(row: Row, entry: Entry, measured: Measured) -> Row:
     if "in_nature" not in entry:
         return row
     claim = entry["in_nature"]
-    numbers = {name: SimpleNamespace(**values) for name, values in measured.items()}
-    row |= {"in_nature": claim["verdict"], "nature": claim["says"].format_map(numbers)}
+    says = entries.NUMBER.sub(lambda n: format(measured[n[1]][n[2]], n[3]), claim["says"])
+    row |= {"in_nature": claim["verdict"], "nature": says}
     problem = judge(claim, measured)
     if "check" in claim:
         values = measured[claim["check"]]
         row |= {
             "holds": row["holds"] or "yes",
-            "nature_test": ledger.checks()[f"nature.{claim['check']}"],
+            "nature_test": ledger.docstring(f"nature.{claim['check']}"),
             "nature_true_if": _criterion(claim["confirms"]),
             "nature_found": ", ".join(
                 f"{model.replace('_', ' ')} {value:.3g}" for model, value in values.items()
@@ -93,8 +92,8 @@ def _with_nature(row: Row, entry: Entry, measured: Measured) -> Row:
 
 def judge(claim: Mapping[str, Any], measured: Measured) -> str:
     """Why the recorded verdict on a claim in nature no longer holds; empty if it does."""
-    finite = {name: np.isfinite(list(values.values())).all() for name, values in measured.items()}
-    crashed = [name for name in dict.fromkeys(entries.needed(claim)) if not finite[name]]
+    found = {name: list(measured[name].values()) for name in entries.needed(claim)}
+    crashed = [name for name, values in found.items() if not np.isfinite(values).all()]
     if crashed:
         return f"in nature: {', '.join(crashed)} found no number"
     if "check" not in claim:
@@ -114,7 +113,7 @@ def _criterion(confirms: Mapping[str, float]) -> str:
 def table_of(measured: Measured) -> list[Row]:
     """Rows of the table of what the checks of `nature` find, by `outcome.OF_NATURE`."""
     return [
-        {"measure": name, "what": ledger.checks()[f"nature.{name}"]}
+        {"measure": name, "what": ledger.docstring(f"nature.{name}")}
         | {model: f"{value:.12g}" for model, value in values.items()}
         for name, values in measured.items()
     ]

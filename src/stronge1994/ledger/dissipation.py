@@ -12,7 +12,7 @@ from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import Contact, NormalMotion, State
 from stronge1994.ledger.dynamics import PLATE
-from stronge1994.ledger.finding import Finding, Gaps, corrected_over, over
+from stronge1994.ledger.finding import Gaps, corrected_over, over
 from stronge1994.printed import dissipation, slip
 
 # Frictions and restitutions of Fig. 9.
@@ -149,7 +149,7 @@ def only_in_slip(impact: Contact) -> Gaps:
     yield gap / (impact.incidence**2 / (2 * impact.mass_ratio))
 
 
-def body_velocity_alone() -> Finding:
+def body_velocity_alone() -> float:
     """Work of friction with $v_1$ alone over the last slip, over that with $v_1 + du_1/dt$.
 
     The lowest ratio of those sampled over initial stick, sphere of the paper, $e = 1$; the sentence
@@ -160,10 +160,10 @@ def body_velocity_alone() -> Finding:
         impact = Contact(share * contact.STIFFNESS_RATIO)
         change = impact.m1 * (impact.v1_t1**2 - impact.final**2) / 2
         ratios.append(change / _exact(impact))
-    return Finding(float(min(ratios)))
+    return float(min(ratios))
 
 
-def strain_decreases() -> Finding:
+def strain_decreases() -> float:
     """Largest rise of either element's strain energy during the last slip, or what is left of it.
 
     Over its value at the onset; the largest of those sampled that stick, $e > 0$.
@@ -175,7 +175,7 @@ def strain_decreases() -> Finding:
         normal = impact.restitution**2 * path.force_2**2 / (2 * impact.stiffness)
         for energy in (_spring(impact, path), normal):
             rises += [np.diff(energy).max() / energy[0], energy[-1] / energy[0]]
-    return Finding(float(max(rises)))
+    return float(max(rises))
 
 
 @over(lambda: contact.RESTITUTIONS)
@@ -205,12 +205,12 @@ def _dissipated(friction: float, restitution: float) -> Array:
     return 2 * (friction * np.cos(theta)) ** 2 * lost
 
 
-def small_incidence() -> Finding:
+def small_incidence() -> float:
     """Largest share of $m_2 S^2/2$ that friction takes up to 10 degrees: the axes of Fig. 9."""
-    return Finding(float(max(_dissipated(*groups)[ANGLES <= 10.0].max() for groups in OF_FIG_9)))
+    return float(max(_dissipated(*groups)[ANGLES <= 10.0].max() for groups in OF_FIG_9))
 
 
-def angle_of_largest() -> Finding:
+def angle_of_largest() -> float:
     r"""Largest angle between most dissipation and the printed limit, $(1 + e) \beta$, in degrees.
 
     Over both frictions and restitutions of Fig. 9.
@@ -219,15 +219,15 @@ def angle_of_largest() -> Finding:
     for mu, e in OF_FIG_9:
         limit = np.degrees(np.arctan(mu * slip.slip_throughout_limit(contact.MASS_RATIO, e)))
         gaps.append(ANGLES[_dissipated(mu, e).argmax()] - limit)
-    return Finding(float(max(gaps)))
+    return float(max(gaps))
 
 
-def limited_by_restitution() -> Finding:
+def limited_by_restitution() -> float:
     """Smallest gain of the largest share dissipated from one $e$ to the next larger."""
     shares = [
         [_dissipated(mu, e).max() for e in np.linspace(0, 1, 11)] for mu in (0.1, 0.3, 0.5, 1.0)
     ]
-    return Finding(float(np.min(np.diff(shares, axis=1))))
+    return float(np.min(np.diff(shares, axis=1)))
 
 
 @over(lambda: contact.RESTITUTIONS)

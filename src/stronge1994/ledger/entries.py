@@ -1,7 +1,6 @@
 """The entries of the ledger; those that cannot be run are refused before any work."""
 
 import re
-import string
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -11,6 +10,8 @@ from stronge1994.ledger.finding import MODELS
 
 Entry: TypeAlias = dict[str, Any]
 
+# A number that a text quotes: a check of `nature`, model and format, `{duration.viscous:.2f}`.
+NUMBER = re.compile(r"\{([^{}]+)\.([a-z_]+):?([^{}]*)\}")
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
 
 
@@ -42,17 +43,16 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
 
 
 def _refuse_unknown_checks(where: str, entry: Entry) -> None:
-    claim = entry.get("in_nature", {})
-    of_nature = [claim["check"]] if "check" in claim else []
-    of_nature += numbers_in(claim.get("says", ""))
-    asked = [entry["check"]] if "check" in entry else []
-    asked += [f"nature.{name}" for name in of_nature]
-    known = {*ledger.checks(), *(f"{name}.{m}" for name in ledger.checks() for m in MODELS)}
-    for name in asked:
-        if name not in known:
-            raise reference_data.SourceError(
-                f"{where}: '{name}' is no function of stronge1994.ledger"
-            )
+    claim = entry.get("in_nature", {"says": ""})
+    checks = [entry["check"]] if "check" in entry else []
+    try:
+        for check in [*checks, *(f"nature.{name}" for name in needed(claim))]:
+            ledger.called(check)
+    except (LookupError, TypeError) as error:
+        raise reference_data.SourceError(f"{where}: {error}") from None
+    for _, model, _ in NUMBER.findall(claim["says"]):
+        if model not in MODELS:
+            raise reference_data.SourceError(f"{where}: '{model}' is no model")
 
 
 def _with_fact(where: str, entry: Entry, facts: Mapping[str, Mapping[str, Any]]) -> Entry:
@@ -83,19 +83,14 @@ def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, s
         raise reference_data.SourceError(f"{path}: causes.{cause}: no entry has this cause")
 
 
-def numbers_in(text: str) -> list[str]:
-    """Checks of `nature`, each with its model, of which a text asks for the number.
-
-    >>> numbers_in("{peak_spread.viscous:.2f} mu v2(0)")
-    ['peak_spread.viscous']
-    """
-    return [name for _, name, _, _ in string.Formatter().parse(text) if name is not None]
-
-
 def needed(claim: Mapping[str, Any]) -> list[str]:
-    """Checks of `nature` that decide a claim, or whose numbers its text quotes."""
+    """Checks of `nature` that decide a claim, or whose numbers its text quotes.
+
+    >>> needed({"check": "duration", "says": "{reversal(0.5).viscous:.2f} mu v2(0)"})
+    ['duration', 'reversal(0.5)']
+    """
     names = [claim["check"]] if "check" in claim else []
-    return names + [name.partition(".")[0] for name in numbers_in(claim["says"])]
+    return names + [check for check, _, _ in NUMBER.findall(claim["says"])]
 
 
 def is_run(entry: Entry) -> bool:

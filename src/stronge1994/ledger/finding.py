@@ -25,7 +25,7 @@ _Place = TypeVar("_Place")
 
 
 class Finding(NamedTuple):
-    """The result of a check.
+    """What a run of a check finds.
 
     For an equation `value` is the largest distance of the printed formula from the paper's model
     among the samples, in the unit that the check names; between the samples it may be larger. For a
@@ -48,20 +48,20 @@ def largest(values: Iterable[ArrayLike]) -> float:
 
 def over(
     places: Callable[[], Iterable[_Place]],
-) -> Callable[[Callable[[_Place], Gaps]], Callable[[], Finding]]:
+) -> Callable[[Callable[[_Place], Gaps]], Callable[[], float]]:
     """Make a check of a function that yields its distances at one place: the largest counts.
 
     >>> @over(lambda: [1.0, 2.0])
     ... def square_root(place):
     ...     yield place**0.5 - 1
-    >>> round(square_root().value, 3)
+    >>> round(square_root(), 3)
     0.414
     """
 
-    def check_of(gaps: Callable[[_Place], Gaps]) -> Callable[[], Finding]:
+    def check_of(gaps: Callable[[_Place], Gaps]) -> Callable[[], float]:
         @wraps(gaps)
-        def check() -> Finding:
-            return Finding(largest(gap for place in places() for gap in gaps(place)))
+        def check() -> float:
+            return largest(gap for place in places() for gap in gaps(place))
 
         return check
 

@@ -1,6 +1,6 @@
 """Checks of Eqs 28 to 35, and of what pp. 435 and 444 to 449 say of the largest forces."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import product
 
 import numpy as np
@@ -12,7 +12,7 @@ from planarimpact.ground.results import Rebound
 from stronge1994.judging import landmarks
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import Contact, State, boundary
-from stronge1994.ledger.finding import Finding, Gaps, corrected_over, largest, over
+from stronge1994.ledger.finding import Gaps, corrected_over, largest, over
 from stronge1994.printed import peak_force
 
 FRICTIONS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)
@@ -136,44 +136,36 @@ def slip_throughout(impact: Contact) -> Gaps:
     yield _gap(impact, peak_force.eq_33_friction)
 
 
-def _rigid_gap(formula: Callable[[Array, float], Numbers], *shares: float) -> Finding:
-    """Distance of a formula of the rigid limit from mu F2, in mu; x = shares of beta."""
+def rigid_limit(shares: Sequence[float]) -> float:
+    r"""Eq. 34 or, from $\beta$ on, Eq. 35 against quadrature and `rigid`, in $\mu$.
+
+    At $x/\beta$ of {shares}.
+    """
     (motion,) = contact.normal_motions([1.0])
     compression = slice(motion.at_top + 1)
     force = motion.path.force_2[compression] / motion.force_scale
     impulse = motion.brought[compression] / motion.compression_impulse
     # Slip halts at a known impulse p. F2 rises with p in compression, and dp/dF2 is 0 at t_c, so
     # F2^2 is smooth there.
-    halted = np.sqrt(CubicSpline(impulse, force**2)(np.minimum(shares, 1.0)))
-    gaps = []
-    for beta, _ in contact.PAIRS:
-        x = beta * np.array(shares)
-        slope = motion.friction * x
-        for exact in (halted, rigid.rebound(x, beta).peak_friction):
-            exact_over_speed = exact * peak_force.eq_28_normal(slope)
-            gaps.append(formula(slope, beta) / motion.friction - exact_over_speed)
-    return Finding(largest(gaps))
+    squared, gaps = CubicSpline(impulse, force**2), []
+    for (beta, _), share in product(contact.PAIRS, shares):
+        slope = motion.friction * share * beta
+        if share < 1:
+            printed = peak_force.eq_34_friction(slope, motion.friction, beta)
+        else:
+            printed = peak_force.eq_35_friction(slope, motion.friction)
+        for exact in (
+            squared(min(share, 1)) ** 0.5,
+            rigid.rebound(share * beta, beta).peak_friction,
+        ):
+            gaps.append(printed / motion.friction - exact * peak_force.eq_28_normal(slope))
+    return largest(gaps)
 
 
-def rigid_halted() -> Finding:
-    """Eq. 34 where slip halts in compression, against quadrature and `rigid`."""
-    return _rigid_gap(
-        lambda slope, beta: peak_force.eq_34_friction(slope, Contact.friction, beta),
-        *(0.05, 0.4, 0.9, 0.99),
-    )
-
-
-def rigid_sliding() -> Finding:
-    """Eq. 35 where slip goes through compression, against quadrature and `rigid`."""
-    return _rigid_gap(
-        lambda slope, _: peak_force.eq_35_friction(slope, Contact.friction), 1.0, 1.7, 2.5
-    )
-
-
-def compliance_reduces() -> Finding:
+def compliance_reduces() -> float:
     r"""Smallest excess of the peak without tangential compliance over that with it, in $\mu$."""
     x = np.linspace(0, 8, 2001)
-    return Finding(float(np.min(_rigid(x).peak_friction - _lumped(x).peak_friction)))
+    return float(np.min(_rigid(x).peak_friction - _lumped(x).peak_friction))
 
 
 @over(lambda: contact.PAIRS)
@@ -192,32 +184,30 @@ def _slip_stick_slip(number: int, samples: int) -> list[Contact]:
     return [Contact(x, samples=samples) for x in incidences]
 
 
-def late_stick() -> Finding:
+def late_stick() -> float:
     """Share of the incidences of slip, stick, slip ($e = 1$) whose stick begins after $t_c$."""
     late = [impact.t2 > impact.compression_time for impact in _slip_stick_slip(200, 2)]
-    return Finding(float(np.mean(late)))
+    return float(np.mean(late))
 
 
-def peak_after_stick() -> Finding:
+def peak_after_stick() -> float:
     """Share of the incidences of slip, stick, slip ($e = 1$) with the peak before stick."""
     before = [
         impact.path.t[np.argmax(np.abs(impact.path.force_1))] < impact.t2
         for impact in _slip_stick_slip(100, 401)
     ]
-    return Finding(float(np.mean(before)))
+    return float(np.mean(before))
 
 
-def velocity_at_stick() -> Finding:
+def velocity_at_stick() -> float:
     r"""Lowest $v_1(t_2)/(\mu v_2(0))$ over slip, stick, slip, $e = 1$, of those sampled.
 
     Negative means that the body has turned round.
     """
-    return Finding(
-        min(
-            float(impact.v1_t2) / impact.velocity_scale
-            for impact in contact.slip_stick_slip((1.0,))
-            if (impact.mass_ratio, impact.stiffness_ratio) == contact.SPHERE
-        )
+    return min(
+        float(impact.v1_t2) / impact.velocity_scale
+        for impact in contact.slip_stick_slip((1.0,))
+        if (impact.mass_ratio, impact.stiffness_ratio) == contact.SPHERE
     )
 
 
@@ -233,24 +223,14 @@ def _angle_of_peak(friction: float, model: Model = _lumped) -> float:
     return landmarks.peak(ANGLES, _forces(model, friction))
 
 
-def peak_angle_small_friction() -> Finding:
-    r"""Angle of the largest peak of friction, $\mu = 0.1$, in degrees."""
-    return Finding(_angle_of_peak(0.1))
+def peak_angle(friction: float) -> float:
+    r"""Angle of the largest peak of friction, $\mu = {friction}$, in degrees."""
+    return _angle_of_peak(friction)
 
 
-def peak_angle_large_friction() -> Finding:
-    r"""Angle of the largest peak of friction, $\mu = 1$, in degrees."""
-    return Finding(_angle_of_peak(1.0))
-
-
-def peak_angle_lewis_rogers() -> Finding:
-    r"""Angle of the largest peak of friction, $\mu = 0.18$, in degrees."""
-    return Finding(_angle_of_peak(0.18))
-
-
-def peak_angle_rises() -> Finding:
+def peak_angle_rises() -> float:
     r"""Smallest rise in degrees of the angle of the largest peak between $\mu$ of Fig. 7."""
-    return Finding(float(np.min(np.diff([_angle_of_peak(mu) for mu in FRICTIONS]))))
+    return float(np.min(np.diff([_angle_of_peak(mu) for mu in FRICTIONS])))
 
 
 def _incidence_of_peak(model: Model) -> Array:
@@ -258,56 +238,40 @@ def _incidence_of_peak(model: Model) -> Array:
     return np.array([np.tan(np.radians(_angle_of_peak(mu, model))) / mu for mu in FRICTIONS])
 
 
-def peak_at_intermediate_incidence() -> Finding:
+def peak_at_intermediate_incidence() -> float:
     r"""Distance of the incidence of the largest peak from $\zeta^2$ and $(1 + e) \beta$."""
     (beta, zeta2), x = contact.SPHERE, _incidence_of_peak(_lumped)
-    return Finding(float(min((x - zeta2).min(), (2 * beta - x).min())))
+    return float(min((x - zeta2).min(), (2 * beta - x).min()))
 
 
-def peak_below_gross_slip() -> Finding:
+def peak_below_gross_slip() -> float:
     """Largest incidence of the largest peak, with tangential compliance and without."""
-    return Finding(float(max(_incidence_of_peak(model).max() for model in (_lumped, _rigid))))
+    return float(max(_incidence_of_peak(model).max() for model in (_lumped, _rigid)))
 
 
-def _reductions() -> list[float]:
-    """How much less the largest peak is than without tangential compliance, one a friction."""
-    return [1 - _forces(_lumped, mu).max() / _forces(_rigid, mu).max() for mu in FRICTIONS]
+def reduction(friction: float) -> float:
+    r"""Share by which tangential compliance makes the largest peak smaller, $\mu = {friction}$."""
+    return 1 - _forces(_lumped, friction).max() / _forces(_rigid, friction).max()
 
 
-def largest_reduction() -> Finding:
-    """Share by which tangential compliance makes the largest peak of friction smaller.
-
-    The largest share over the frictions of Fig. 7.
-    """
-    return Finding(max(_reductions()))
-
-
-def smallest_reduction() -> Finding:
-    """Share by which tangential compliance makes the largest peak of friction smaller.
-
-    The smallest share over the frictions of Fig. 7.
-    """
-    return Finding(min(_reductions()))
-
-
-def compliance_immaterial() -> Finding:
+def compliance_immaterial() -> float:
     r"""Difference of both peaks from $x = \beta$ on, in $\mu$."""
     x = np.linspace(contact.MASS_RATIO, 20, 200)
-    return Finding(largest([_lumped(x).peak_friction - _rigid(x).peak_friction]))
+    return largest([_lumped(x).peak_friction - _rigid(x).peak_friction])
 
 
-def full_friction_angle() -> Finding:
+def full_friction_angle() -> float:
     r"""Degrees from which peak friction is $\mu$ times the peak normal force, $\mu = 0.18$."""
 
     def below(angle: float) -> bool:
         return bool(_lumped(np.tan(np.radians(angle)) / 0.18).peak_friction < 1 - 1e-15)
 
-    return Finding(boundary(below, 0.0, 80.0))
+    return boundary(below, 0.0, 80.0)
 
 
-def ball_mass() -> Finding:
+def ball_mass() -> float:
     """Mass of a steel ball of 25.4 mm and half as much for its holder, kg."""
-    return Finding(1.5 * float(bodies.solid_sphere(0.0127, 7850.0).mass))
+    return 1.5 * float(bodies.solid_sphere(0.0127, 7850.0).mass)
 
 
 def _effect(model: Model, friction: float, base: Model = _lumped) -> float:
@@ -315,12 +279,12 @@ def _effect(model: Model, friction: float, base: Model = _lumped) -> float:
     return abs(_forces(model, friction).max() / _forces(base, friction).max() - 1)
 
 
-def normal_details() -> Finding:
+def normal_details() -> float:
     r"""Largest relative change of the largest peak of a $\mu$, Hertz' compliance for linear."""
-    return Finding(max(_effect(contact.without_micro_slip, mu) for mu in (0.1, 0.4, 1.0)))
+    return max(_effect(contact.without_micro_slip, mu) for mu in (0.1, 0.4, 1.0))
 
 
-def stiffness_matters_more() -> Finding:
+def stiffness_matters_more() -> float:
     r"""Change of the largest peak from $\nu = 0$ to 0.5, over that by Hertz' compliance.
 
     $\zeta^2$ is 1 for $\nu = 0$ and 1.5 for 0.5. The smallest ratio for $\mu = 0.1$, 0.4 and 1.
@@ -335,4 +299,4 @@ def stiffness_matters_more() -> Finding:
         _effect(sphere(0.5), mu, sphere(0.0)) / _effect(contact.without_micro_slip, mu)
         for mu in frictions
     ]
-    return Finding(min(ratios))
+    return min(ratios)

@@ -176,20 +176,6 @@ def rebound_after_slip_throughout(impact: Contact) -> Gaps:
     yield impact.printed(slip.eq_27_rebound) - impact.final / scale
 
 
-def _slips_throughout_from(mass_ratio: float, stiffness_ratio: float, restitution: float) -> float:
-    """Incidence from which the solver never sticks, by bisection of its regimes.
-
-    >>> round(_slips_throughout_from(3.5, 1.21, 1.0), 9)
-    5.79
-    """
-
-    def sticks(x: float) -> bool:
-        rebound = lumped.rebound(x, mass_ratio, stiffness_ratio, restitution)
-        return rebound.regime != Regime.SLIP_THROUGHOUT
-
-    return boundary(sticks, 0.0, 4 * mass_ratio)
-
-
 @corrected_over(lambda: product(contact.PAIRS, (0.0, *contact.RESTITUTIONS)))
 def slip_throughout_limit(place: tuple[tuple[float, float], float]) -> tuple[ArrayLike, float]:
     r"""The printed limit $(1 + e) \beta$ less the one found by bisection of regimes, in $x$.
@@ -197,6 +183,10 @@ def slip_throughout_limit(place: tuple[tuple[float, float], float]) -> tuple[Arr
     Corrected, by Eqs 17 to 20: $\beta + \mathrm{max}(0, e \beta - \zeta^2/e)$.
     """
     (beta, zeta2), e = place
-    exact = _slips_throughout_from(beta, zeta2, e)
+
+    def sticks(x: float) -> bool:
+        return lumped.rebound(x, beta, zeta2, e).regime != Regime.SLIP_THROUGHOUT
+
+    exact = boundary(sticks, 0.0, 4 * beta)
     later = e * beta - zeta2 / e if e else 0.0
     return slip.slip_throughout_limit(beta, e) - exact, beta + max(0.0, later) - exact
