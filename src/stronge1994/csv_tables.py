@@ -5,6 +5,7 @@ its unit in brackets. A job that failed leaves tables with the single column `er
 """
 
 import csv
+import io
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from typing import Any, TypeAlias
@@ -43,22 +44,16 @@ def refuse_not_finite(named: Mapping[str, Columns]) -> None:
                 )
 
 
-def write(
-    path: Path, named: Mapping[str, Mapping[str, Iterable[Any]]], first: str = "curve"
-) -> None:
+def write(path: Path, named: Mapping[str, Mapping[str, Iterable[Any]]]) -> None:
     """Write `{name: {column: array}}`; a column that a curve lacks stays empty."""
     columns = list(dict.fromkeys(column for curve in named.values() for column in curve))
-    rows: list[list[str]] = []
+    rows: list[list[Any]] = []
     for name, curve in named.items():
-        cells = [
-            [str(value.item() if hasattr(value, "item") else value) for value in curve[column]]
-            if column in curve
-            else None
-            for column in columns
-        ]
-        length = max(len(cell) for cell in cells if cell is not None)
-        rows += [[name, *(cell[i] if cell else "" for cell in cells)] for i in range(length)]
-    write_rows(path, [first, *columns], rows)
+        own = {column: np.asarray(values).tolist() for column, values in curve.items()}
+        empty = [""] * len(next(iter(own.values())))
+        cells = (own.get(column, empty) for column in columns)
+        rows += [[name, *row] for row in zip(*cells, strict=True)]
+    write_rows(path, ["curve", *columns], rows)
 
 
 def write_rows(path: Path, header: Sequence[str], rows: Iterable[Iterable[Any]]) -> None:
@@ -76,34 +71,39 @@ def write_table(path: Path, rows: Iterable[Mapping[str, Any]], columns: Sequence
 
 def read(path: Path) -> Curves:
     """Read what `write` wrote: numbers as float64, others as text, empty columns left out."""
-    with open(path, newline="", encoding="utf-8") as file:
-        header, *rows = list(csv.reader(file))
-    if header == ["error"]:
-        raise Failed(rows[0][0])
+    rows = read_rows(path)
+    first, *columns = rows[0] if rows else [""]
     named: Curves = {}
-    for name in dict.fromkeys(row[0] for row in rows):
-        part = [row for row in rows if row[0] == name]
-        columns = zip(*(row[1:] for row in part), strict=True)
-        named[name] = {
-            key: values(column)
-            for key, column in zip(header[1:], columns, strict=True)
-            if any(column)
-        }
+    for name in dict.fromkeys(row[first] for row in rows):
+        part = [row for row in rows if row[first] == name]
+        cells = {column: [row[column] for row in part] for column in columns}
+        named[name] = {column: values(own) for column, own in cells.items() if any(own)}
     return named
 
 
 def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
-    """Rows of a table; a `ValueError` names the line of a missing column or of a wrong width.
-
-    `Failed` says why a job has made no table.
-    """
+    """Rows of a table, as `rows_of`; `Failed` says why a job has made no table."""
     with open(path, newline="", encoding="utf-8") as file:
-        header, *rows = list(csv.reader(file, strict=True)) or [[]]
-    if header == ["error"]:
-        raise Failed(rows[0][0])
-    missing = [column for column in columns if column not in header]
-    if missing:
-        raise ValueError(f"{path}, line 1: column '{missing[0]}' is missing")
+        text = file.read()
+    if text.startswith("error\n"):
+        raise Failed(rows_of(text, path)[0]["error"])
+    return rows_of(text, path, columns)
+
+
+def rows_of(text: str, path: Path, columns: Iterable[str] = ()) -> list[Row]:
+    """Rows of the text of a table, which stands in the file `path` and must have some columns.
+
+    A `ValueError` names the line of a missing column or of a wrong width.
+    """
+    try:
+        header, *rows = list(csv.reader(io.StringIO(text, newline=""), strict=True)) or [[]]
+    except csv.Error as error:
+        raise ValueError(f"{path}: {error}") from None
+    for column in columns:
+        if header.count(column) != 1:
+            problem = "stands twice" if column in header else "is missing"
+            found = ", ".join(header)
+            raise ValueError(f"{path}, line 1: column '{column}' {problem}; found {found}")
     for line, row in enumerate(rows, 2):
         if len(row) != len(header):
             raise ValueError(f"{path}, line {line}: {len(row)} cells where {len(header)} belong")

@@ -7,13 +7,12 @@ import pytest
 
 from planarimpact import models
 from stronge1994 import plan, reference_data
+from stronge1994.curve_names import CONTINUA
 from stronge1994.figures.fig5 import curves as fig5
 from stronge1994.figures.fig6 import curves as fig6
 from stronge1994.figures.fig6 import drawing as draw_fig6
 from stronge1994.figures.fig9 import curves as fig9
 from stronge1994.figures.fig9 import drawing as draw_fig9
-from stronge1994.figures.shared.curves.beside import CONTINUA
-from stronge1994.figures.shared.drawing import house_style
 from stronge1994.judging.metrics import measure
 from stronge1994.plan import config as configuration
 
@@ -46,13 +45,6 @@ def test_without_models_none_is_solved_or_named(figure):
     more = curves.curves(**settings_of(figure))
     assert {name.split(",")[0] for name in more if name not in found} == set(CONTINUA)
     assert [name for name in more if name in found] == list(found)
-
-
-def test_a_continuum_of_the_config_is_drawn_in_a_style_of_its_own():
-    assert set(CONTINUA) == set(house_style.LOSSY_CONTINUA)
-    colours = {style["color"] for _, style in house_style.LOSSY_CONTINUA.values()}
-    dashes = {style["linestyle"] for _, style in house_style.LOSSY_CONTINUA.values()}
-    assert len(colours) == len(dashes) == 2
 
 
 def test_the_shots_lose_energy_as_the_source_says():

@@ -15,7 +15,7 @@ def test_a_line_has_the_numbers_and_names_of_its_columns():
     rows = np.array([True, False, True])
     line = house_style.line(axes, curves, name, "time [t_c]", "spin_y [rad/s]", rows)
     assert line.get_xydata() == pytest.approx(np.array([[0, 1], [1, np.nan], [2, 1]]), nan_ok=True)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("$t/t_c$", "spin y [rad/s]")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time, $t_c$", "spin y, rad/s")
     assert line.get_label() == "lumped, $e = 0.5$"
 
 

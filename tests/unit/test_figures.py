@@ -69,7 +69,7 @@ def test_the_figures_of_the_paper_come_first(folder):
         (
             "allowed: friction",
             "allowed: frictoin",
-            "settings.friction.allowed: 'frictoin' is no ki",
+            "settings: allowed: 'frictoin' is no kind",
         ),
         ("shows:", "show:", "'show' was unexpected.; allowed are shows, caption"),
         ("value: 0.5,", "", "settings.friction: 'value' is a required property"),
@@ -77,7 +77,7 @@ def test_the_figures_of_the_paper_come_first(folder):
         ("value: 0.5", "value: 50", "figure.yaml: settings: friction: 50 is greater than the max"),
         ("allowed: friction", "allowed: {type: nubmer}", "friction.allowed.type: 'nubmer' is not"),
         ("allowed: friction", "allowed: {minimun: 4}", "allowed: .*'minimun' was unexpected"),
-        ("allowed: friction", "allowed: {$ref: '#/$defs/no'}", "friction.allowed: 'no' is no kind"),
+        ("allowed: friction", "allowed: {$ref: '#/$defs/no'}", "allowed: 'no' is no kind"),
         ("value: 0.5, allowed: friction", "value: [1, 0], allowed: {ascending: true}", "larger th"),
         ("metric: distance", "metrik: distance", "comparisons.line-{e}: top level: .*allowed are"),
         ('curve: "e = {e}"', 'curve: "e = {f}"', "comparisons.line-{e}: `each` has no {f}"),

@@ -21,7 +21,7 @@ def read(folder, text):
     """x and y of a digitised series that holds this text."""
     path = folder / "mine.csv"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    found = reference_data.read_series({"kind": "digitised", "path": str(path), **AXES})
+    found = reference_data.arrays({"kind": "digitised", "path": str(path), **AXES})
     return list(zip(found[X], found[Y], strict=True))
 
 
@@ -163,7 +163,7 @@ def printed(folder, text):
     """The columns of a stated series that holds this text."""
     path = folder / "pairs.csv"
     path.write_text(text)
-    return reference_data.read_series({"path": str(path), **PRINTED})
+    return reference_data.arrays({"path": str(path), **PRINTED})
 
 
 def test_stated_values_have_uncertainties_of_their_own(tmp_path):
@@ -234,7 +234,7 @@ def measured(folder, old="", new=""):
 def test_a_measured_series_has_sigmas_by_column_or_one_however_large(tmp_path):
     series = measured(tmp_path)
     assert series["x"]["sigma"] == 5
-    assert reference_data.read_series(series)["share_uncertainty [1]"] == [1.0, 0.2]
+    assert reference_data.arrays(series)["share_uncertainty [1]"].tolist() == [1.0, 0.2]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""The stability map: what counts as a correct digit, and impacts that fail."""
+"""The figure stability: what counts as a correct digit, and impacts that fail."""
 
 import warnings
 

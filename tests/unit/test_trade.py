@@ -1,4 +1,4 @@
-"""Error against time: known distances between models, the Pareto front, the choice of a model."""
+"""Error against time: known distances between models, the choice of a model."""
 
 import math
 import time
@@ -10,7 +10,6 @@ from planarimpact import InputError, models
 from stronge1994 import csv_tables
 from stronge1994.figures.trade import answers as trade_table
 from stronge1994.figures.trade import curves as trade
-from stronge1994.figures.trade import drawing as draw_trade
 
 RMS, MAX = "rms_velocity [mu v2(0)]", "max_velocity [mu v2(0)]"
 SETTINGS = {
@@ -122,13 +121,6 @@ def test_times_are_there_within_the_budget(named, monkeypatch):
 def test_too_few_steps_for_the_bodies_are_refused():
     with pytest.raises(InputError, match="steps = 4"):
         trade.curves(**SETTINGS | {"restitution": [0.5], "steps": [4], "stiffness_ratio": 0.1})
-
-
-def test_front_leaves_out_what_is_beaten():
-    time = [1.0, 2.0, 2.0, 3.0, 4.0]
-    error = [0.5, 0.5, 0.1, 0.2, 0.05]
-    assert draw_trade.front(time, error) == [0, 2, 4]
-    assert draw_trade.front([1.0], [0.0]) == [0]
 
 
 class Clock:

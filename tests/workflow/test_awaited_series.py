@@ -139,7 +139,7 @@ def test_every_awaited_comparison_is_tried_here(inventory):
         name: comparison
         for comparison, entry in CONFIG["comparisons"].items()
         if (name := entry.get("reference"))
-        and configuration.reference(inventory, name)[1].get("kind") == "awaited"
+        and configuration.reference(inventory, name).get("kind") == "awaited"
     }
     assert awaited == AWAITED
 

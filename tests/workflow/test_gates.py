@@ -118,7 +118,7 @@ def diverging(first_run, config, inventory, monkeypatch):
         wrong = _wrong(_settings(figure, config, inventory), parameter, size)
         module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
         curves = READ(first_run[0] / f"results/curves/{figure}.csv")
-        own = [n for n in curves if not (curve_names.is_shifted(n) or curve_names.is_printed(n))]
+        own = [n for n in curves if not (curve_names.is_shifted(n) or curve_names.AS_PRINTED in n)]
         solved = curves | dict(zip(own, module.curves(**wrong).values(), strict=True))
         monkeypatch.setattr(judging_rows, "read", lambda _: solved)
         entries = {name: config["comparisons"][name] for name in asked}
@@ -135,7 +135,8 @@ def test_every_comparison_notices_a_wrong_parameter(figure, diverging, config, i
     entries, settings = plan.comparisons(config, figure), _settings(figure, config, inventory)
     laws = {name for name, entry in entries.items() if entry["metric"] in ("range", "contraction")}
     # What is awaited is tried with a made-up series in test_awaited_series.py.
-    awaited = {name for name, waits in plan.expected_rows(config, inventory).items() if waits}
+    rows = plan.plan_of_judgement(config, inventory, figure)["rows"]
+    awaited = {name for name, waits in rows.items() if waits}
     left = set(entries) - laws - awaited - PRINTED - set(BALANCES) - set(COARSE)
     for parameter in PARAMETERS:
         if _wrong(settings, parameter, LARGE) == settings:

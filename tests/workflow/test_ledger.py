@@ -18,7 +18,6 @@ from stronge1994.ledger import checking, contact, entries, finding, outcome
 from stronge1994.pages import ledger_page
 from stronge1994.plan import config as configuration
 from stronge1994.printed import dissipation, slip
-from tests.workflow import browser
 
 ROOT = Path(__file__).parents[2]
 FILE = "data/stronge1994/ledger.yaml"
@@ -117,32 +116,6 @@ def test_the_head_of_the_page_names_all_that_is_wrong_by_cause(rows, tmp_path):
     order = [re.findall(r'<span class="mark \w+">([^<]+)</span>', group)[0] for group in groups]
     assert order == sorted(order, key=list(outcome.GRADES).index)
     assert 'href="#slip-throughout-limit"' in groups[0]
-
-
-def test_the_filter_of_the_page(rows, tmp_path):
-    """One click on a grade, two that nothing has, a link to what is hidden; on a phone."""
-    page = page_of(list(rows.values()), tmp_path)
-    shown = "[...document.querySelectorAll('article')].filter((e) => e.checkVisibility()).length"
-    with browser.page() as tab:
-        tab.resize(390, 800, mobile=True)
-        tab.open(page.as_uri())
-        assert tab.evaluate("document.documentElement.scrollWidth") <= 390
-        assert tab.evaluate(shown) == len(ENTRIES)
-        for group in ("verdict", "grade", "in_nature", "kind"):
-            found = tab.evaluate(
-                f"Object.fromEntries([...document.querySelectorAll('input[name={group}]')].map("
-                "(box) => [box.value, Number(box.parentElement.lastElementChild.textContent)]))"
-            )
-            assert found == Counter(row[group] for row in rows.values() if row[group])
-        tab.evaluate("document.querySelector('[value=\"changes a result\"]').click()")
-        assert tab.evaluate(shown) == 7
-        tab.evaluate("document.querySelector('[value=\"confirmed\"]').click()")
-        assert tab.evaluate(shown) == 0
-        tab.evaluate("location.hash = 'eq-12'; new Promise(setTimeout)")
-        assert tab.evaluate(shown) == 1
-        tab.evaluate("document.querySelector('[type=reset]').click()")
-        assert tab.evaluate(shown) == len(ENTRIES)
-        assert tab.problems == []
 
 
 def test_the_explorer_shows_the_impacts_that_the_entries_speak_of():

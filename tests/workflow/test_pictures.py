@@ -55,7 +55,6 @@ def numbers(picture):
             yield artist.get_patch_transform().transform(artist.get_path().vertices)
         elif isinstance(artist, Collection):
             yield from (path.vertices for path in artist.get_paths())
-            yield np.ma.filled(np.ma.asarray(artist.get_array(), float), np.nan)
 
 
 def shown(picture):

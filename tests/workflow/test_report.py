@@ -210,7 +210,7 @@ def test_they_fit_a_phone_and_links_unfold_what_they_lead_to(report):
             for name in names:
                 tab.evaluate(f"location.hash = '{name}'; new Promise((go) => setTimeout(go, 50))")
                 assert tab.evaluate(f"document.getElementById('{name}').closest('details').open")
-            contents = "document.querySelector('.contents details').open"
+            contents = "document.querySelector('.contents a').checkVisibility()"
             assert not tab.evaluate(contents)
             tab.evaluate(
                 "document.querySelectorAll('details').forEach((part) => { part.open = true; })"

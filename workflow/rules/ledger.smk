@@ -26,7 +26,7 @@ rule ledger_page:
         plan=planned("ledger_page", "write_ledger_page", "pages", "ledger", "printed", "plan",
             "reference_data", settings=lambda _: SYMBOLS),
         template="workflow/report/ledger.html",
-        parts="workflow/report/ledger.css",
+        parts=expand("workflow/report/{part}.css", part=["page", "ledger"]),
         shared=EVERY_PAGE,
         table="results/ledger.csv",
     output:

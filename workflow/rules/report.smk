@@ -3,7 +3,6 @@ REPORT_PARTS = [
     "workflow/report/sources.html",
     "workflow/report/figure_table.html",
     "workflow/report/summary.html",
-    "workflow/report/unfold.js",
     "workflow/report/model.svg",
     *expand("workflow/report/{part}.css", part=["page", "report"]),
     *expand("workflow/report/{part}.rst", part=["trade", "which_model"]),

@@ -4,14 +4,13 @@ rule site:
     """All pages and the interface of the solver in one folder and as a zip file, for a web server or a stick."""
     input:
         plan=planned("site", "write_site", "pages/__init__.py", "pages/interface.py",
-            "pages/names.py", "pages/run_facts.py", "pages/site.py", "pages/templates.py", "plan", "printed",
+            "pages/names.py", "pages/site.py", "pages/templates.py", "plan", "printed",
             "reference_data"),
         # Pages and pictures of a whole run.
         pages=[path for path in MADE if path.startswith("figures/")],
         notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS)
         + ["workflow/notebooks/lecture.mplstyle"],
         texts=["LICENSE", "CITATION.cff"],
-        readme="workflow/report/site_readme.txt",
         parts=["workflow/report/index.html", "workflow/report/page.css", *EVERY_PAGE],
         style=expand("workflow/report/interface/{part}", part=["frame.html.jinja2", "custom.css"]),
     output:

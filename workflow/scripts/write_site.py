@@ -6,6 +6,6 @@ with record.recorded(snakemake):
     from stronge1994.pages import interface, site
 
     given, folder = snakemake.input, snakemake.output.folder
-    site.write(folder, given.pages, given.notebooks, given.texts, given.readme)
+    site.write(folder, given.pages, given.notebooks, given.texts)
     interface.write(f"{folder}/interface")
     site.pack(folder, snakemake.output.archive)

@@ -58,46 +58,28 @@ BODIES = {
 
 def presets(settings: Mapping[str, Any]) -> dict[str, State]:
     """States of the page's controls for figures, where the sliders reach them."""
-    shared = {
-        "poisson_ratio": _poisson_ratio(settings["stiffness_ratio"]),
-        "mass_ratio": settings["mass_ratio"],
-    }
-    figures = settings["figures"]
     states = {}
-    for figure, own in figures.items():
+    for figure, own in settings["figures"].items():
         friction = own.get("friction", own["open"].get("friction"))
         friction = max(friction) if isinstance(friction, list) else friction
         angle = own["open"].get("angle")
         if angle is None:
             angle = math.degrees(math.atan(friction * own["incidence"]))
-        restitution = _middle(own.get("restitution", 1.0))
-        states[figure] = {"angle": angle, "friction": friction, "restitution": restitution}
-    states = {figure: state | shared for figure, state in states.items()}
-    rounded = {
-        figure: {control: round(float(state[control]), 4) for control in OF_FIGURES}
-        for figure, state in states.items()
-    }
-    return {figure: state for figure, state in rounded.items() if _within_limits(state)}
-
-
-def _middle(values: Any) -> Any:
-    """The middle one of several settings; the first if there are two."""
-    return values[(len(values) - 1) // 2] if isinstance(values, list) else values
+        restitution = own.get("restitution", 1.0)
+        if isinstance(restitution, list):  # the middle one; the first of two
+            restitution = restitution[(len(restitution) - 1) // 2]
+        zeta2, beta = settings["stiffness_ratio"], settings["mass_ratio"]
+        values = angle, friction, restitution, _poisson_ratio(zeta2), beta
+        rounded = (round(float(value), 4) for value in values)
+        state = dict(zip(OF_FIGURES, rounded, strict=True))
+        if all(LIMITS[name][0] <= value <= LIMITS[name][1] for name, value in state.items()):
+            states[figure] = state
+    return states
 
 
 def _poisson_ratio(stiffness_ratio: float) -> float:
     """nu of zeta^2 = (2 - nu)/(2 (1 - nu)); NaN where no material has it."""
     return (stiffness_ratio - 1) / (stiffness_ratio - 0.5) if stiffness_ratio > 0.5 else math.nan
-
-
-def _mass_ratios() -> dict[str, float]:
-    return {name: round(float(bodies.mass_ratio(body)), 12) for name, body in BODIES.items()}
-
-
-def _within_limits(state: Mapping[str, float]) -> bool:
-    return all(
-        LIMITS[control][0] <= value <= LIMITS[control][1] for control, value in state.items()
-    )
 
 
 def address(state: Mapping[str, float]) -> str:
@@ -146,7 +128,7 @@ def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[
     return template.render(
         limits=LIMITS,
         presets={figure: address(state) for figure, state in presets(settings).items()},
-        bodies=_mass_ratios(),
+        bodies={name: round(float(bodies.mass_ratio(body)), 12) for name, body in BODIES.items()},
         materials=balls(texts["materials.yaml"]),
         sources=texts,
         scripts=SCRIPTS,

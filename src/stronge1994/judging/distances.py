@@ -52,8 +52,6 @@ def curve_residuals(
     if len(line_x) < 2:
         raise ValueError(f"a polyline needs two vertices, here {len(line_x)}")
     places, line = np.stack([x, y], 1), np.stack([line_x, line_y], 1)
-    if not (np.isfinite(places).all() and np.isfinite(line).all()):
-        raise ValueError("a coordinate is not finite")
     scales = np.stack(np.broadcast_arrays(*sigma, x)[:2], 1)
     nearest = np.empty(len(x))
     for i, (point, scale) in enumerate(zip(places / scales, scales, strict=True)):

@@ -6,14 +6,14 @@ that must be equal; columns whose values have a `range`; or neighbours that must
 apart than they arrive (`contraction`).
 """
 
-from collections.abc import Callable, Iterable
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from planarimpact.ground.arrays import Array
 from stronge1994 import curve_names, reference_data
-from stronge1994.csv_tables import Column, Columns, Curves
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.judging import distances, landmarks
 from stronge1994.judging.distances import Residuals
 from stronge1994.judging.points import Entry, Reference, points, rows_of, sigma
@@ -45,14 +45,13 @@ def measure(entry: Entry, reference: Reference, curves: Curves) -> Measured:
         return _LAWS[entry["metric"]](entry, curves)
     if entry["metric"] == "landmark":
         return _landmark(entry, reference, curves)
-    find = _from_curve if entry["metric"] == "distance" else _from_vertices
     series = points(entry, reference)
-    residuals, columns = find(entry, reference, curves, series)
+    residuals, columns = _from_series(entry, reference, curves, series)
     # The curve is solved again with each uncertain parameter off by one sigma, up and down.
     shifts = []
     for up, down in curve_names.shifted_by(entry.get("curve"), curves):
-        upper, _ = find({**entry, "curve": up}, reference, curves, series)
-        lower, _ = find({**entry, "curve": down}, reference, curves, series)
+        upper, _ = _from_series({**entry, "curve": up}, reference, curves, series)
+        lower, _ = _from_series({**entry, "curve": down}, reference, curves, series)
         shift = (upper.sigmas - lower.sigmas) / 2
         # An error of a parameter moves all points together, unless each point has its own.
         shifts += list(np.diag(shift)) if curve_names.EACH in up else [shift]
@@ -60,64 +59,39 @@ def measure(entry: Entry, reference: Reference, curves: Curves) -> Measured:
     return Measured(x, residuals, columns, np.reshape(shifts, (len(shifts), len(columns))))
 
 
-# Distances, and the column of each.
-_ResidualsAndColumns: TypeAlias = tuple[Residuals, list[str]]
-
-
-def _from_curve(
+def _from_series(
     entry: Entry, reference: Reference, curves: Curves, series: Columns
-) -> _ResidualsAndColumns:
-    """Distances from the polyline of the named curve, or of the curve that each point names."""
-    x = reference_data.column_name(reference["x"])
-    owners = np.full(len(series[x]), entry["curve"]) if "curve" in entry else series["curve"]
+) -> tuple[Residuals, list[str]]:
+    """Distances of points from a curve or from vertices, and the column of each.
+
+    The curve is the named one, or that which each point names.
+    """
+    x, labels = reference_data.column_name(reference["x"]), reference.get("labels", [])
+    of_curves = entry["metric"] == "distance"
+    owners = series["curve"] if of_curves and "curve" not in entry else np.full(len(series[x]), "")
     parts: list[Residuals] = []
     columns: list[str] = []
-    for name in dict.fromkeys(owners.tolist()):
+    for owner in dict.fromkeys(owners.tolist()):
         for axis in reference_data.ordinates(reference):
-            y = reference_data.column_name(axis)
-            chosen = rows_of(series, (owners == name) & ~np.isnan(series[y]))
-            if len(chosen[y]):
-                polyline = _columns_of(curves, name, x, y)
-                scale = sigma(entry, (reference["x"], axis), chosen)
+            y, name = reference_data.column_name(axis), owner or entry.get("curve")
+            chosen = rows_of(series, (owners == owner) & ~np.isnan(series[y]))
+            if not len(chosen[y]):
+                continue
+            scale = sigma(entry, (reference["x"], axis), chosen)
+            if of_curves:
+                line = _columns_of(curves, name, [x, y])
+                polyline = line[x], line[y]
                 parts.append(distances.curve_residuals((chosen[x], chosen[y]), polyline, scale))
                 columns += [f"{y} of {name}"] * len(chosen[y])
-    return _joined(parts), columns
-
-
-def _from_vertices(
-    entry: Entry, reference: Reference, curves: Curves, series: Columns
-) -> _ResidualsAndColumns:
-    """Distances from the vertices with the same labels."""
-    x, names = reference_data.column_name(reference["x"]), reference.get("labels", [])
-    named = [
-        own | {"curve": np.full(len(own[x]), name)}
-        for name, own in _selected_curves(entry, curves).items()
-        if x in own
-    ]
-    parts: list[Residuals] = []
-    columns: list[str] = []
-    for axis in reference_data.ordinates(reference):
-        y = reference_data.column_name(axis)
-        chosen = rows_of(series, ~np.isnan(series[y]))
-        if len(chosen[y]):
-            holders = [own for own in named if {y, *names} <= set(own)]
-            if not holders:
-                raise ValueError(f"no curve has the columns '{x}' and '{y}'")
-            labels = _labels(chosen, names)
-            vertices = (
-                np.concatenate([own[x] for own in holders]),
-                np.concatenate([own[y] for own in holders]),
-                [label for own in holders for label in _labels(own, names)],
-            )
-            scale = sigma(entry, (reference["x"], axis), chosen)
-            points_there = chosen[x], chosen[y], labels
-            parts.append(distances.vertex_residuals(points_there, vertices, scale))
-            columns += [f"{y} of {label}" if label else y for label in labels]
-    return _joined(parts), columns
-
-
-def _joined(parts: Iterable[Residuals]) -> Residuals:
-    return Residuals(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+            else:
+                own = _columns_of(curves, name, [x, y, *labels])
+                found, vertices = (
+                    (some[x], some[y], _labels(some, labels)) for some in (chosen, own)
+                )
+                parts.append(distances.vertex_residuals(found, vertices, scale))
+                columns += [f"{y} of {label}" if label else y for label in found[2]]
+    joined = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+    return Residuals(*joined), columns
 
 
 def _labels(columns: Columns, label_columns: Iterable[str]) -> list[str]:
@@ -131,29 +105,25 @@ def _labels(columns: Columns, label_columns: Iterable[str]) -> list[str]:
 def _landmark(entry: Entry, fact: Reference, curves: Curves) -> Measured:
     """A landmark against a stated fact."""
     kind, x, y = (entry["landmark"][key] for key in ("kind", "x", "y"))
-    places, values = _columns_of(curves, entry["curve"], x, y)
-    value = landmarks.find(kind, places, values, entry["landmark"].get("at"))
+    own = _columns_of(curves, entry["curve"], [x, y])
+    value = landmarks.find(kind, own[x], own[y], entry["landmark"].get("at"))
     quantity = y if kind == "value" else x
     return Measured(quantity, distances.fact_residuals(value, fact), [quantity])
 
 
-def _of_all_curves(entry: Entry, curves: Curves) -> tuple[str, Array, Array]:
-    """The columns of a law, one curve that has them after the other.
+def _of_law(entry: Entry, curves: Curves) -> tuple[str, Array, Array]:
+    """The columns of a law, in all curves that have them.
 
     First come name and values of the first column of numbers, which says where the points lie.
     """
-    names = entry["columns"]
-    holders = [own for own in _selected_curves(entry, curves).values() if {*names} <= set(own)]
-    if not holders:
-        raise ValueError(f"no curve has the columns {names}")
-    first = next(name for name, values in holders[0].items() if values.dtype.kind == "f")
-    x, *values = (np.concatenate([own[name] for own in holders]) for name in (first, *names))
-    return first, x, np.array(values)
+    own = _columns_of(curves, entry.get("curve"), entry["columns"])
+    first = next(name for name, values in own.items() if values.dtype.kind == "f")
+    return first, own[first], np.array([own[name] for name in entry["columns"]])
 
 
 def _small(entry: Entry, curves: Curves) -> Measured:
     """A column that must be small, or two that must be equal up to `BALANCE_SIGMA`."""
-    first, x, values = _of_all_curves(entry, curves)
+    first, x, values = _of_law(entry, curves)
     gap, scale = (values[0] - values[1], BALANCE_SIGMA) if len(values) == 2 else (values[0], 1.0)
     return Measured(first, Residuals(x, gap / scale, gap), [entry["columns"][0]] * len(x))
 
@@ -161,7 +131,7 @@ def _small(entry: Entry, curves: Curves) -> Measured:
 def _range(entry: Entry, curves: Curves) -> Measured:
     """Columns that must lie in a range: distances from its middle, in half its width."""
     names, (low, high) = entry["columns"], entry["range"]
-    first, x, values = _of_all_curves(entry, curves)
+    first, x, values = _of_law(entry, curves)
     most = LARGEST_RANGE_RATIO * np.abs(values).max()
     if max(abs(low), abs(high)) >= most:
         raise ValueError(
@@ -179,7 +149,7 @@ def _contraction(entry: Entry, curves: Curves) -> Measured:
     parts = []
     for name, columns in curves.items():
         # The printed equations need not obey this law.
-        obeys = not (curve_names.is_printed(name) or curve_names.is_shifted(name))
+        obeys = not (curve_names.AS_PRINTED in name or curve_names.is_shifted(name))
         if obeys and name.startswith(entry.get("beginning", "")) and {x, y} <= set(columns):
             order = np.argsort(columns[x], kind="stable")
             arrive, leave = (np.abs(np.diff(columns[axis][order])) for axis in (x, y))
@@ -200,22 +170,20 @@ _LAWS: dict[str, Callable[[Entry, Curves], Measured]] = {
 }
 
 
-def _selected_curves(entry: Entry, curves: Curves) -> Curves:
-    """The one curve that the comparison names, or all of them."""
-    if "curve" not in entry:
-        return curves
-    return {entry["curve"]: _named(curves, entry["curve"])}
+def _columns_of(curves: Curves, name: str | None, needed: Sequence[str]) -> Columns:
+    """Columns of the named curve, or of all curves that have the `needed` ones, joined.
 
-
-def _named(curves: Curves, name: str) -> Columns:
-    if name not in curves:
+    `curve` has the name of each row's curve.
+    """
+    if name is not None and name not in curves:
         raise ValueError(f"no curve '{name}'; the figure has {', '.join(curves)}")
-    return curves[name]
-
-
-def _columns_of(curves: Curves, name: str, *columns: str) -> list[Column]:
-    curve = _named(curves, name)
-    missing = [column for column in columns if column not in curve]
-    if missing:
-        raise ValueError(f"curve '{name}' has no column '{missing[0]}'")
-    return [curve[column] for column in columns]
+    holders = [
+        own | {"curve": np.full(len(next(iter(own.values()))), key)}
+        for key, own in (curves if name is None else {name: curves[name]}).items()
+        if {*needed} <= {"curve", *own}
+    ]
+    if not holders:
+        which = "no curve has" if name is None else f"curve '{name}' does not have"
+        raise ValueError(f"{which} the columns {', '.join(needed)}")
+    shared = [key for key in holders[0] if all(key in own for own in holders)]
+    return {key: np.concatenate([own[key] for own in holders]) for key in shared}

@@ -26,7 +26,6 @@ NATURE_STYLE = {
     finding.DEPENDS: "nature depends",
     finding.OPEN: "nature unknown",
 }
-KINDS = ("equation", "sentence")
 # Impacts of the paper's sphere to which an entry refers: angle, friction, restitution, and the view
 # of the explorer.
 IN_EXPLORER = {
@@ -96,14 +95,11 @@ def page(rows: Sequence[Row], symbols: str, template: str) -> str:
     environment = templates.environment(Path(template).parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
     style = STYLE | GRADE_STYLE | NATURE_STYLE
-    counts = {}
-    for key in ("grade", "verdict", "in_nature", "kind"):
-        found = Counter(row.get(key) for row in rows)
-        counts[key] = {value: found[value] for value in [*style, *KINDS] if found[value]}
+    found = Counter(row["verdict"] for row in rows)
     return environment.get_template(Path(template).name).render(
         entries=rows,
         symbols=symbols,
-        counts=counts,
+        counts={verdict: found[verdict] for verdict in STYLE if found[verdict]},
         graded=outcome.sentence_of_grades(rows),
         lapsed=outcome.failing(rows),
         causes=by_cause(rows),

@@ -2,42 +2,9 @@
 
 import re
 
-from stronge1994.curve_names import SCENE, is_of_paper
+from stronge1994.curve_names import SCENE, is_of_paper, words
 
 YEAR = re.compile(r"(?<=[a-z])(?=(?:19|20)\d\d$)")
-GREEK = {"mu": "μ", "nu": "ν"}
-# Units whose names in tables a reader would not understand.
-UNITS = {
-    "1": "",
-    "us": "µs",
-    "deg": "°",
-    "kg/m^3": "kg/m³",
-    "t_c": "$t_c$",
-    "1/Omega": r"$1/\Omega$",
-    "v2(0)": "$v_2(0)$",
-    "v2(0)/Omega": r"$v_2(0)/\Omega$",
-    "mu v2(0)": r"$\mu v_2(0)$",
-    "mu v2(0)/R": r"$\mu v_2(0)/R$",
-    "F2max": r"$F_{2\mathrm{max}}$",
-    "mu F2max": r"$\mu F_{2\mathrm{max}}$",
-    "m2 Omega S": r"$m_2 \Omega S$",
-    "m2 Omega v2(0)": r"$m_2 \Omega v_2(0)$",
-    "mu m2 Omega v2(0)": r"$\mu m_2 \Omega v_2(0)$",
-    "m2 S^2/2": "$m_2 S^2/2$",
-    "mu^2 m2 v2(0)^2": r"$\mu^2 m_2 v_2(0)^2$",
-    "K0": "$K_0$",
-    "a_max": r"$a_{\mathrm{max}}$",
-    "delta_max": r"$\delta_{\mathrm{max}}$",
-}
-
-
-def words(identifier: str) -> str:
-    """The words of an identifier, with Greek letters.
-
-    >>> words("contact-nu-0.3"), words("peak_over_mu_normal")
-    ('contact ν 0.3', 'peak over μ normal')
-    """
-    return " ".join(GREEK.get(word, word) for word in re.split("[-_]", identifier))
 
 
 def figure(name: str) -> str:
@@ -91,27 +58,6 @@ def entry(name: str) -> str:
     ('Eq. 32 late', 'slip throughout limit')
     """
     return re.sub(r"^eq-0?", "Eq. ", name).replace("-", " ")
-
-
-def column(name: str) -> str:
-    r"""Name of a column of a table, with its unit after a comma.
-
-    >>> column("largest_error [mu v2(0)]"), column("restitution [1]")
-    ('largest error, $\\mu v_2(0)$', 'restitution')
-    """
-    quantity, _, unit_name = name.rstrip("]").partition(" [")
-    written = UNITS.get(unit_name, unit_name)
-    return words(quantity) + (f", {written}" if written else "")
-
-
-def unit(name: str) -> str:
-    r"""What stands behind a number: a space and a unit, or the sign of degrees.
-
-    >>> unit("mu v2(0)"), unit("N"), unit("deg"), unit("1")
-    (' $\\mu v_2(0)$', ' N', '°', '')
-    """
-    written = UNITS.get(name, name)
-    return f" {written}" if written not in ("", "°") else written
 
 
 def sentence(text: str) -> str:

@@ -17,7 +17,7 @@ from markupsafe import Markup
 
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
-from stronge1994.curve_names import is_of_paper
+from stronge1994.curve_names import is_of_paper, unit
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number, plain
@@ -128,8 +128,8 @@ def page(values: TemplateValues, template: str | Path) -> str:
 
 def measured(row: Row) -> Markup:
     """How large the distance of a row of the verdict table is, its unit as a formula."""
-    value, _, unit = row["stated"].partition(" ")
-    shown = {"stated": f"{value}{names.unit(unit)}", "unit": names.unit(row["unit"]).strip()}
+    value, _, stated = row["stated"].partition(" ")
+    shown = {"stated": f"{value}{unit(stated)}", "unit": unit(row["unit"]).strip()}
     return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
 
 

@@ -1,4 +1,4 @@
-"""Facts about a run: versions, computer, date, commit, and how long its jobs took."""
+"""Facts about a run: versions, computer, date and commit."""
 
 import datetime
 import os
@@ -7,8 +7,6 @@ import subprocess
 from importlib import metadata
 from pathlib import Path
 from typing import Any
-
-from stronge1994.run import record
 
 PACKAGES = ("planarimpact", "numpy", "scipy", "matplotlib", "pandas", "snakemake")
 NO_COMMIT = "unknown: not a git checkout, or git is missing"
@@ -22,7 +20,6 @@ def of_run() -> dict[str, Any]:
         "system": f"{platform.platform()}, {os.cpu_count()} processors",
         "date": f"{datetime.datetime.now(datetime.UTC):%d %B %Y, %H:%M} UTC",
         "commit": commit("."),
-        "times": times(),
     }
 
 
@@ -61,11 +58,3 @@ def _git(folder: str | Path, *arguments: str) -> str:
         env=environment,
     )
     return completed.stdout[:-1]
-
-
-def times() -> list[tuple[str, float]]:
-    """Seconds that each job took when it last ran, longest first: list of (job, seconds)."""
-    known = {path.stem: record.read(str(path)) for path in Path(record.FOLDER).glob("*.json")}
-    # A damaged record is left out: another job may be writing it.
-    jobs = [(job, float(content["seconds"])) for job, content in known.items() if content]
-    return sorted(jobs, key=lambda job: -job[1])

@@ -4,17 +4,13 @@ import shutil
 from collections.abc import Iterable
 from pathlib import Path
 
-from stronge1994.pages import run_facts, templates
+from stronge1994.pages import templates
 
 
 def write(
-    folder: str,
-    pages: Iterable[str],
-    notebooks: Iterable[str],
-    texts: Iterable[str],
-    readme: str,
+    folder: str, pages: Iterable[str], notebooks: Iterable[str], texts: Iterable[str]
 ) -> None:
-    """Copy pages (files and folders of figures/), notebooks and texts, and write README.txt.
+    """Copy pages (files and folders of figures/), notebooks and texts.
 
     The start page links to the interface here: only the site has it.
     """
@@ -35,10 +31,6 @@ def write(
         shutil.copy2(text, site)
     for notebook in notebooks:
         shutil.copy2(notebook, site / "notebooks")
-    pattern = Path(readme).read_text(encoding="utf-8")
-    version = run_facts.versions()["planarimpact"]
-    text = pattern.format(version=version, commit=run_facts.commit("."))
-    (site / "README.txt").write_text(text, encoding="utf-8")
 
 
 def pack(folder: str, archive: str) -> None:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import jinja2
 
+from stronge1994 import curve_names
 from stronge1994.formulas import mathematical, number
 from stronge1994.pages import names
 
@@ -18,8 +19,8 @@ FILTERS = {
     "source_name": names.source,
     "series_name": names.series,
     "entry_name": names.entry,
-    "column_name": names.column,
-    "unit": names.unit,
+    "column_name": curve_names.column,
+    "unit": curve_names.unit,
     "sentence": names.sentence,
 }
 

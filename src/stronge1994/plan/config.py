@@ -71,15 +71,16 @@ def _of_scenes(scenes: Any) -> dict[str, Entry]:
 
 def schema() -> dict[str, Any]:
     """JSON schema of the whole config, with the settings of each figure."""
-    whole = reference_data.load_yaml(figures.PROJECT / "workflow/schemas/config.schema.yaml")
-    stated = figures.stated().items()
-    whole["properties"]["figures"] = {
+    whole, stated = figures.schema("config"), figures.stated().items()
+    own = {
         "type": "object",
         "additionalProperties": False,
         "properties": {name: figures.schema_of(figure["settings"]) for name, figure in stated},
     }
-    whole["$defs"] |= figures.definitions()
-    return whole
+    return whole | {
+        "properties": whole["properties"] | {"figures": own},
+        "$defs": whole["$defs"] | figures.definitions(),
+    }
 
 
 def with_values(node: Any) -> Any:
@@ -124,7 +125,7 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
             kind = setting.get("allowed")
             if kind == "source":
                 _check_source(where, value, setting.get("parameters", []), inventory)
-            if kind == "table" and reference(inventory, value, where)[0] != "series":
+            if kind == "table" and "kind" not in reference(inventory, value, where):
                 raise ConfigError(f"{where}: '{value}' is no series")
     for scene in config["scenes"]:
         if not Path(f"data/scenes/{scene}.csv").is_file():
@@ -165,9 +166,9 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
             )
     if metric not in ("distance", "vertices", "landmark"):
         return
-    kind, known = reference(inventory, comparison["reference"], where)
-    if (kind == "facts") != (metric == "landmark"):
-        raise ConfigError(f"{where}: metric {metric} does not go with one of the {kind}")
+    known = reference(inventory, comparison["reference"], where)
+    if ("statement" in known) != (metric == "landmark"):
+        raise ConfigError(f"{where}: metric {metric}: a landmark needs a fact, all others a series")
     if metric == "distance" and not ("curve" in comparison or "curve" in known.get("labels", [])):
         raise ConfigError(f"{where}: metric distance needs `curve`")
     for label in comparison.get("points", {}):
@@ -200,10 +201,10 @@ def table_of(name: str) -> str:
     return f"results/curves/{name}.csv"
 
 
-def reference(inventory: Inventory, name: str, where: str = "reference") -> tuple[str, Entry]:
-    """The series or fact `source/entry`: ("series" or "facts", its entry)."""
+def reference(inventory: Inventory, name: str, where: str = "reference") -> Entry:
+    """The series, which has a `kind`, or the fact that `source/entry` names."""
     source, entry = name.split("/")
     for kind in ("series", "facts"):
         if entry in inventory.get(source, {}).get(kind, {}):
-            return kind, inventory[source][kind][entry]
+            return inventory[source][kind][entry]
     raise ConfigError(f"{where}: '{name}' is neither a series nor a fact in data/")

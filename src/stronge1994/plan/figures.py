@@ -14,41 +14,31 @@ from stronge1994 import reference_data
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 FOLDER = Path(__file__).parents[1] / "figures"
 PROJECT = Path(__file__).parents[3]
-SHARED = "shared"  # folder beside the figures, of code for several of them
 
 
 @functools.cache
 def stated() -> dict[str, Stated]:
     """Every figure.yaml, checked; the figures of the paper first, by number."""
-    # A folder that git has emptied may still hold bytecode, in a folder of its own.
+    # `shared` is code for several figures. A folder that git has emptied may still hold bytecode.
     names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
     contents = {}
-    for name in sorted(names - {SHARED, "__pycache__"}, key=place):
+    for name in sorted(names - {"shared", "__pycache__"}, key=place):
         path = _file(name)
         if not re.fullmatch("[a-z][a-z0-9_]*", name):
             raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
         contents[name] = reference_data.load_yaml(path)
-        reference_data.refuse_invalid(contents[name], _schema(), path)
+        reference_data.refuse_invalid(contents[name], schema("figure"), path)
         settings = contents[name]["settings"]
-        _refuse_unknown_kinds(settings, f"{path}: settings")
-        own = schema_of(settings) | {"$defs": _kinds()}
-        reference_data.refuse_invalid(values(settings), own, f"{path}: settings")
+        own, kinds = schema_of(settings), schema("config")["$defs"]
+        for kind in re.findall(r"#/\$defs/(\w+)", f"{own}"):
+            if kind not in kinds:
+                problem = f"'{kind}' is no kind of values; allowed are {', '.join(kinds)}"
+                raise reference_data.SourceError(f"{path}: settings: allowed: {problem}")
+        reference_data.refuse_invalid(values(settings), own | {"$defs": kinds}, f"{path}: settings")
         for file in ("curves.py", "drawing.py"):
             if not (FOLDER / name / file).is_file():
                 raise reference_data.SourceError(f"{path.parent / file}: missing")
     return contents
-
-
-def _refuse_unknown_kinds(settings: Mapping[str, Any], where: str) -> None:
-    for key, node in settings.items():
-        kind = node.get("allowed")
-        if kind is None:
-            _refuse_unknown_kinds(node, f"{where}.{key}")
-            continue
-        named = [kind] if isinstance(kind, str) else re.findall(r"#/\$defs/(\w+)", f"{kind}")
-        if unknown := [name for name in named if name not in _kinds()]:
-            problem = f"'{unknown[0]}' is no kind of values; allowed are {', '.join(_kinds())}"
-            raise reference_data.SourceError(f"{where}.{key}.allowed: {problem}")
 
 
 def place(name: str) -> tuple[bool, int, str]:
@@ -147,17 +137,13 @@ def _filled(node: Any, case: Mapping[str, Any]) -> Any:
 
 def definitions() -> dict[str, Any]:
     """The `$defs` of comparisons in the schema of a config."""
-    return {key: _schema()["$defs"][key] for key in ("comparison", "span")}
+    return {key: schema("figure")["$defs"][key] for key in ("comparison", "span")}
 
 
 @functools.cache
-def _schema() -> dict[str, Any]:
-    return reference_data.load_yaml(PROJECT / "workflow/schemas/figure.schema.yaml")
-
-
-@functools.cache
-def _kinds() -> dict[str, Any]:
-    return reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")["$defs"]
+def schema(name: str) -> dict[str, Any]:
+    """The schema of a `config` or of a `figure`, as in workflow/schemas."""
+    return reference_data.load_yaml(PROJECT / f"workflow/schemas/{name}.schema.yaml")
 
 
 def _file(figure: str) -> Path:

@@ -5,9 +5,7 @@ for each series that is not awaited.
 """
 
 import copy
-import csv
 import functools
-import io
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -16,6 +14,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from stronge1994 import csv_tables
 from stronge1994.csv_tables import Columns
 from stronge1994.reference_data import strict_yaml
 
@@ -71,7 +70,10 @@ def load(folder: Path, schema: Schema) -> Source:
         series["path"] = None
         if series["kind"] != "awaited":
             series["path"] = str(folder / f"{name}.csv")
-            _refuse_other_number(f"{path}: series.{name}", series)
+            count = len(next(iter(arrays(series).values())))
+            if count != series.get("points"):
+                where = f"{path}: series.{name}.points = {series.get('points')}"
+                raise SourceError(f"{where}: {series['path']} has {count} points")
     own = {Path(s["path"]).name for s in source.get("series", {}).values() if s["path"]}
     known = {"source.yaml", *own, *source.get("made_with", [])}
     for name in source.get("made_with", []):
@@ -94,15 +96,6 @@ def load(folder: Path, schema: Schema) -> Source:
 def _visible(folder: Path) -> set[str]:
     """Names in a folder, without hidden files and READMEs."""
     return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
-
-
-def _refuse_other_number(where: str, series: Series) -> None:
-    """Refuse a file that has more or fewer points than source.yaml says."""
-    count = len(next(iter(read_series(series).values())))
-    if count != series.get("points"):
-        raise SourceError(
-            f"{where}.points = {series.get('points')}: {series['path']} has {count} points"
-        )
 
 
 def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
@@ -211,8 +204,8 @@ def sigma_column(axis: Axis) -> str | None:
     return column_name({"column": axis["sigma"], "unit": axis["unit"]})
 
 
-def read_series(series: Series) -> dict[str, list[Any]]:
-    """Read and check one series: `{column: list}`, numbers for its axes and texts for its labels.
+def arrays(series: Series) -> Columns:
+    """Read and check one series: its columns, numbers as float64, labels as text.
 
     `series` is its entry in source.yaml, with its `path`. If there are several y axes, some of
     their cells may be empty: these become nan. A `SourceError` names file, line, column and value.
@@ -226,39 +219,20 @@ def read_series(series: Series) -> dict[str, list[Any]]:
         printed = sigma_column(axis)
         if printed:
             axes[printed] = {"range": [0.0, high - low], "sigma": 0.0}
-    header, *rows = _rows(path)
-    for column in [*labels, *axes]:
-        if header.count(column) != 1:
-            problem = "is missing" if column not in header else "stands twice"
-            raise SourceError(f"{path}: column '{column}' {problem}; found {', '.join(header)}")
+    try:
+        rows = csv_tables.rows_of(text_of(path), path, [*labels, *axes])
+    except ValueError as error:
+        raise SourceError(str(error)) from None
     if not rows:
         raise SourceError(f"{path}: no points")
-    columns: dict[str, list[Any]] = {column: [] for column in [*labels, *axes]}
-    for line, row in enumerate(rows, 2):
-        if len(row) != len(header):
-            raise SourceError(f"{path}, line {line}: {len(row)} cells where {len(header)} belong")
-        for column in columns:
-            cell = row[header.index(column)]
-            where = f"{path}, line {line}, column '{column}'"
-            if column in axes:
-                empty = column in may_be_empty and not cell
-                columns[column].append(math.nan if empty else _number(cell, axes[column], where))
-            else:
-                columns[column].append(cell)
+    columns: Columns = {label: np.array([row[label] for row in rows]) for label in labels}
+    for column, axis in axes.items():
+        columns[column] = np.full(len(rows), math.nan)
+        for place, row in enumerate(rows):
+            if row[column] or column not in may_be_empty:
+                where = f"{path}, line {place + 2}, column '{column}'"
+                columns[column][place] = _number(row[column], axis, where)
     return columns
-
-
-def arrays(series: Series) -> Columns:
-    """The columns of `read_series` as arrays: numbers as float64, labels as text."""
-    return {column: np.array(cells) for column, cells in read_series(series).items()}
-
-
-def _rows(path: str | Path) -> list[list[str]]:
-    """Header and rows of a file."""
-    try:
-        return list(csv.reader(io.StringIO(text_of(path), newline=""), strict=True)) or [[]]
-    except csv.Error as error:
-        raise SourceError(f"{path}: {error}") from None
 
 
 def _number(cell: str, axis: Axis, where: str) -> float:

@@ -60,31 +60,25 @@ def gather(paths: Iterable[str]) -> list[Row]:
 
     In place of a table that was not made stands one row that fails.
     """
-    return [row for path in paths for row in _rows(path)]
-
-
-def _rows(path: str) -> list[Row]:
-    try:
-        return csv_tables.read_rows(path, COLUMNS)
-    except csv_tables.Failed as error:
-        name = Path(path).stem
-        cells = {"figure": name, "comparison": f"{name}-solved", "verdict": Verdict.WRONG}
-        cells["question"] = QUESTIONS[0]
-        return [dict.fromkeys(COLUMNS, "") | cells | {"note": f"{error}"}]
+    rows = []
+    for path in paths:
+        try:
+            rows += csv_tables.read_rows(path, COLUMNS)
+        except csv_tables.Failed as error:
+            name = Path(path).stem
+            cells = {"figure": name, "comparison": f"{name}-solved", "question": QUESTIONS[0]}
+            cells |= {"verdict": Verdict.WRONG, "note": f"{error}"}
+            rows.append(dict.fromkeys(COLUMNS, "") | cells)
+    return rows
 
 
 def why(row: Row) -> str:
-    """Why a row fails."""
-    found = measured(row)
-    limits = f"{found}; allowed is {_allowed(row)}" if found else ""
+    """Why a row fails: its bound, or with a documented difference that it was to stay as before."""
+    found, bound = measured(row), row["allowed"]
+    if row["regression"]:
+        bound = f"a difference, and as before {row['regression']}"
+    limits = f"{found}; allowed is {bound}" if found else ""
     return ": ".join(part for part in (row["note"], limits) if part)
-
-
-def _allowed(row: Row) -> str:
-    """The bound of a row; with a documented difference, that it stays as before."""
-    if not row["regression"]:
-        return row["allowed"]
-    return f"a difference, and as before {row['regression']}"
 
 
 def text(rows: Sequence[Row]) -> str:

@@ -6,9 +6,9 @@ from planarimpact import continuum, lumped, rigid
 from planarimpact.ground.arrays import Array
 from planarimpact.ground.results import Rebound, Regime
 from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import CONTINUA
 from stronge1994.figures.shared.curves import as_printed as printed_curves
 from stronge1994.figures.shared.curves import measured
-from stronge1994.figures.shared.curves.beside import CONTINUA
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit

@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 from planarimpact import Regime
 from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import house_style
+from stronge1994.curve_names import CONTINUA
+from stronge1994.figures.shared.drawing import beside, house_style
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Series, Settings, Style
 
 X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -20,33 +21,23 @@ POINT: Style = {"marker": "o", "markerfacecolor": "white"}
 IN_PAPER = {
     "johnson1983/rubber_sphere": ("rubber sphere (Johnson)", POINT | {"color": house_style.BLACK})
 }
-LOSSY_RUBBER = "cross2014/impacts"  # measured with loss, and so not on the curves, which have e = 1
 ADDED = {
     "chung_ooi2011/rebound": (
         "finite elements (Chung & Ooi)",
         POINT | {"color": house_style.VERMILLION, "marker": "s"},
     ),
-    LOSSY_RUBBER: (
-        r"rubber sphere (Cross 2014), $e \approx 0.9$",
-        POINT | {"color": house_style.GREEN},
-    ),
 }
-# These points are measured against the angle: they must be converted to the axes of the figure.
-MEASURED_ANGLES = "kharaz2001/tangential_restitution"
+KHARAZ = "kharaz2001/tangential_restitution"
 SHOTS = {
-    MEASURED_ANGLES: (
+    KHARAZ: (
         "measured (Kharaz et al.)",
         {"color": house_style.BLUE, "marker": "o", "markersize": 3},
     )
 }
 
 
-def _converted(name: str, series: Series) -> Series:
+def _converted(series: Series) -> Series:
     """Measurements against the angle, converted to the axes of the figure with their errors."""
-    if name == LOSSY_RUBBER:
-        return series | _turned_round(series)
-    if name != MEASURED_ANGLES:
-        return series
     groups = [series["parameters"][key] for key in ("mass_ratio", "friction")]
     angle, ratio = series["x"], series["y"]
     angle_error, ratio_error = series["sigma"]
@@ -54,17 +45,6 @@ def _converted(name: str, series: Series) -> Series:
     by_angle = np.subtract(contact_velocities(angle + angle_error, ratio, *groups), (x, y))
     by_ratio = np.subtract(contact_velocities(angle, ratio + ratio_error, *groups), (x, y))
     return series | {"x": x, "y": y, "sigma": np.hypot(by_angle, by_ratio), "axes": (X, Y)}
-
-
-def _turned_round(series: Series) -> Series:
-    """Points of which the share of the tangential velocity is measured that is turned round."""
-    share, friction = series["y"], series["parameters"]["friction"]
-    x, x_error = (
-        series["columns"][f"{column} [1]"] / friction
-        for column in ("tangential_before", "tangential_before_uncertainty")
-    )
-    sigma = x_error, np.hypot(share * x_error, series["sigma"][1] * x)
-    return {"x": x, "y": -share * x, "sigma": sigma, "axes": (X, Y)}
 
 
 def contact_velocities(
@@ -85,7 +65,8 @@ def contact_velocities(
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) the paper's curves and series, and additions; (b) an experiment with its models."""
-    points = {name: _converted(name, series) for name, series in points.items()}
+    if KHARAZ in points:
+        points = points | {KHARAZ: _converted(points[KHARAZ])}
     figure = house_style.new(7.0)
     axes, shots = figure.subplots(2, 1, sharex=True, height_ratios=[5, 3.4])
     printed = (1 + settings["restitution"]) * settings["mass_ratio"]
@@ -135,7 +116,7 @@ def _draw_experiment(axes: Axes, curves: Curves, points: Points, experiment: Set
     axes.set_title(rf"$e = {e:g}$,  $\zeta^2 = {zeta2:g}$")
     label, name = f"lumped model, $e = {e:g}$", "lumped.hysteretic, experiment"
     lumped = house_style.line(axes, curves, name, X, Y, label=label, **house_style.LUMPED)
-    models = house_style.lossy_continua(axes, curves, X, Y, "experiment")
+    models = beside.lines(axes, curves, "experiment", X, Y, CONTINUA)
     return [*house_style.references(axes, points, SHOTS), lumped, *models]
 
 

@@ -16,8 +16,8 @@ TANGENTIAL: Style = {
 ENLARGED = 2
 # Stated angles of the largest tangential force: who stated it, and the pattern of its line.
 STATED = {
-    "stronge1994/peak_angle_mu_0.18": ("stated in the paper", "-"),
-    "lewis_rogers1988/peak_angle": ("measured", house_style.DASHES[3]),
+    "stronge1994/peak_angle_mu_0.18": ("stated in the paper, near", "-"),
+    "lewis_rogers1988/peak_angle": ("measured, about", house_style.DASHES[3]),
 }
 
 
@@ -38,7 +38,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
                 enlarged,
                 "friction",
                 top,
-                rf"{largest}, solved: ${angle:.1f}\degree$",
+                rf"{largest}, solved ${angle:.1f}\degree$",
                 {"color": house_style.VERMILLION, "marker": "o", "linestyle": "none"},
             ),
         )
@@ -53,7 +53,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         paper += house_style.references(part, points, wanted)
     for name, (label, dashes) in STATED.items():
         if name in points:
-            where = rf"{largest}, {label}: ${points[name]['value']:g}\degree$"
+            where = rf"{largest}, {label} ${points[name]['value']:g}\degree$"
             style = house_style.PRINTED | {"linestyle": dashes, "label": where}
             paper.append(enlarged.axvline(points[name]["value"], **style))
     axes.set_ylabel("largest normal force, N")

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
 from stronge1994.curve_names import AS_PRINTED, NO_SOLUTION, name
-from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing import beside, house_style
 from stronge1994.figures.shared.drawing.house_style import COLOURS, Points, Settings, Style
 
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
@@ -30,7 +30,12 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     pair = f"{name('mu', max(settings['friction']))}, {name('e', max(settings['restitution']))}"
     rough = f"no tangential compliance, {pair}"
     added = [house_style.rigid(axes, curves, rough, X, Y, compliant=pair)]
-    added += house_style.lossy_continua(axes, curves, X, Y)
+    continua = settings["continua"]
+    for e in continua["restitution"]:
+        for mu in settings["friction"]:
+            end, note = f"{name('mu', mu)}, {name('e', e)}", f", $e = {e:g}$"
+            lines = beside.lines(axes, curves, end, X, Y, continua["models"], note)
+        added += lines
     added += [house_style.line(below, curves, pair, X, Y, **PALE) for pair in strokes][:1]
     for pair, style in strokes.items():
         own = [f"{kind}, {pair}" for kind in (AS_PRINTED, NO_SOLUTION)]

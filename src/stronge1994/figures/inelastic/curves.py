@@ -17,9 +17,8 @@ from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.ground.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import MODELS, name
 from stronge1994.figures.shared.curves import beside
-from stronge1994.figures.shared.curves.beside import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
 # Slopes from which the fit starts. Friction never accelerates the body, so |w| is at most x.
@@ -28,6 +27,7 @@ TRIAL_SLOPES = np.linspace(-1.0, 1.0, 201)
 FIT_SIZE = 2000
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
+PROPERTIES = "young_modulus", "poisson_ratio"  # of a material; before each stands its name
 
 
 class Spread(NamedTuple):
@@ -60,7 +60,7 @@ LARGEST_REACH = max(spread.reach for spread in SPREADS.values())
 def curves(
     mass_ratio: float,
     points: Mapping[str, Sequence[Any]],
-    materials: Mapping[str, Sequence[Any]],
+    materials: Mapping[str, float],
     restitution: Sequence[float],
     poisson_ratio: Sequence[float],
     contact: Mapping[str, float],
@@ -68,22 +68,23 @@ def curves(
     samples: int,
     solved: int,
     tolerance: float,
-    uncertainty: Mapping[str, Sequence[float]],
+    uncertainty: Mapping[str, float],
 ) -> Curves:
     """What each model says of the measured pairs, of every restitution, and of every incidence.
 
-    `points` has the columns of data/cornell1999/pairs.csv; the moduli of `materials` are in Pa, and
-    `uncertainty` is one sigma of each. For each of `MODELS` there are `<model>, pairs`; `<model>,
-    pairs, <spread>` for all other `SPREADS`; `<model>, nu = ...` for both edges of the band; and
-    `<model>, e = ...`. Each of the pairs has two more, `...; each pair's parameters +- 1 sigma`:
-    beta_0 with the standard deviation that it has from restitution, friction and moduli, which are
-    each pair's own. A smooth curve joins `solved` incidences of each contact.
+    `points` has the columns of data/cornell1999/pairs.csv; `materials` has the parameters of its
+    source.yaml, moduli in Pa, and `uncertainty` one sigma of each. For each of `MODELS` there are
+    `<model>, pairs`; `<model>, pairs, <spread>` for all other `SPREADS`; `<model>, nu = ...` for
+    both edges of the band; and `<model>, e = ...`. Each of the pairs has two more, `...; each
+    pair's parameters +- 1 sigma`: beta_0 with the standard deviation that it has from restitution,
+    friction and moduli, which are each pair's own. A smooth curve joins `solved` incidences of each
+    contact.
 
     >>> pairs = {"pair": ["glass"], "body": ["glass"], "other": ["glass"], "restitution": [0.97],
     ...          "restitution_uncertainty": [0.01], "friction": [0.1],
     ...          "friction_uncertainty": [0.01]}
-    >>> glass = {"material": ["glass"], "young_modulus": [7e10], "poisson_ratio": [0.2]}
-    >>> sigmas = {"young_modulus": [1e9], "poisson_ratio": [0.01]}
+    >>> glass = {"glass_young_modulus": 7e10, "glass_poisson_ratio": 0.2}
+    >>> sigmas = {"glass_young_modulus": 1e9, "glass_poisson_ratio": 0.01}
     >>> named = curves(3.5, pairs, glass, [0.8, 1.0], [0.2, 0.5], {"restitution": 0.6,
     ...                "poisson_ratio": 0.3}, (0, 8), 11, 24, 1e-3, sigmas)
     >>> round(float(named["lumped.hysteretic, pairs"]["tangential_restitution [1]"][0]), 2)
@@ -117,23 +118,22 @@ def curves(
 
 def _stiffness_ratios(
     points: Mapping[str, Sequence[Any]],
-    materials: Mapping[str, Sequence[Any]],
-    uncertainty: Mapping[str, Sequence[float]],
+    materials: Mapping[str, float],
+    uncertainty: Mapping[str, float],
 ) -> tuple[Array, Array]:
     """zeta^2 of every pair, and its sigma from those of the moduli."""
 
-    def ratios(known: Mapping[str, Sequence[Any]]) -> Array:
-        properties = (known[key] for key in ("young_modulus", "poisson_ratio"))
-        material = dict(zip(known["material"], map(Material, *properties), strict=True))
-        couples = zip(points["body"], points["other"], strict=True)
-        pairs = [[material[_key(body)] for body in couple] for couple in couples]
+    def ratios(known: Mapping[str, float]) -> Array:
+        pairs = [
+            [Material(*(known[f"{_key(body)}_{part}"] for part in PROPERTIES)) for body in couple]
+            for couple in zip(points["body"], points["other"], strict=True)
+        ]
         return np.array([bodies.stiffness_ratio(*pair) for pair in pairs], float)
 
     stated = ratios(materials)
     changes = [
-        ratios({**materials, key: changed}) - stated
-        for key, sigmas in uncertainty.items()
-        for changed in np.add(materials[key], np.diag(sigmas))
+        ratios({**materials, key: materials[key] + sigma}) - stated
+        for key, sigma in uncertainty.items()
     ]
     return stated, np.sqrt(np.sum(np.square(changes), axis=0))
 

@@ -16,22 +16,10 @@ from stronge1994.figures.shared.drawing.house_style import Entries, Points, Seri
 
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
-OVER_LIMIT, ROW = "chi_squared_over_limit [1]", "row [1]"
 # Distance of points of one restitution, which are drawn side by side.
 PAIR_SPACING = 0.0055
 # Distance of the models' marks in one trial, over the height of its row.
 MODEL_SPACING = 0.16
-
-
-def _judged(curves: Curves, measured: Columns) -> Curves:
-    """Chi-squared of each model in each trial, over the largest that agrees."""
-    tables = {}
-    for place, model in enumerate(MODELS):
-        fits = [goodness(curves, model, measured, trial) for trial in trials(curves).values()]
-        over_limit = [fit.value / chdtri(fit.degrees, SIGNIFICANCE) for fit in fits]
-        rows = np.arange(len(fits)) + MODEL_SPACING * (place - (len(MODELS) - 1) / 2)
-        tables[f"{model}, trials"] = {OVER_LIMIT: np.array(over_limit), ROW: rows}
-    return tables
 
 
 def side_by_side(x: Array) -> Array:
@@ -48,7 +36,6 @@ def side_by_side(x: Array) -> Array:
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw (a) beta_0 against e, (b) one contact at all incidences, (c) chi-squared by trial."""
     series = points[settings["points"]]
-    curves = curves | _judged(curves, series["columns"])
     figure = house_style.new(9.9)
     grid = figure.add_gridspec(3, height_ratios=[3.4, 2.1, 3.6])
     # Each panel is as wide as its own labels allow.
@@ -67,7 +54,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     contact.axhline(0, **house_style.GUIDE)
     beside.lines(contact, curves, name("e", e), X, W)
     contact.set(xlim=settings["incidence"], title=rf"(b) $e = {e:g}$")
-    _draw_trials(judged, curves)
+    _draw_trials(judged, curves, series["columns"])
     entries = [*(house_style.key(**STYLES[model]) for model in MODELS), *pairs]
     house_style.legend_below(figure, entries[: len(entries) // 2], entries[len(entries) // 2 :])
     return figure
@@ -86,16 +73,18 @@ def _draw_pairs(axes: Axes, series: Series) -> Entries:
     return entries
 
 
-def _draw_trials(axes: Axes, curves: Curves) -> None:
+def _draw_trials(axes: Axes, curves: Curves, measured: Columns) -> None:
     """Chi-squared of each model, a row for each trial, over the largest that agrees."""
-    for model in MODELS:
-        mark = STYLES[model] | {"linestyle": "none"}
-        house_style.line(axes, curves, f"{model}, trials", OVER_LIMIT, ROW, **mark)
-    names = list(trials(curves))
+    names = trials(curves)
+    for place, model in enumerate(MODELS):
+        fits = [goodness(curves, model, measured, trial) for trial in names.values()]
+        over_limit = [fit.value / chdtri(fit.degrees, SIGNIFICANCE) for fit in fits]
+        rows = np.arange(len(fits)) + MODEL_SPACING * (place - (len(MODELS) - 1) / 2)
+        axes.plot(over_limit, rows, **STYLES[model] | {"linestyle": "none"})
     axes.axvline(1.0, color=house_style.BLACK, linewidth=0.8, linestyle=house_style.DASHES[1])
     for row in range(1, len(names)):
         axes.axhline(row - 0.5, **house_style.GUIDE)
-    axes.set(xscale="log", ylim=(len(names) - 0.5, -0.5), ylabel="")
+    axes.set(xscale="log", ylim=(len(names) - 0.5, -0.5))
     ticks = (0.3, 1, 3, 10, 30)
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.xaxis.set_minor_locator(NullLocator())

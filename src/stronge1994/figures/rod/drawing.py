@@ -1,6 +1,6 @@
 """Beyond the paper: a slender rod strikes with its tip; rebound, energy, a contact that jams."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,7 +9,7 @@ from matplotlib.patches import Arc
 
 from planarimpact import Regime
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing import histories, house_style
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Settings, Style
 
 TILT, TIME, ENERGY = "tilt [deg]", "time [1/Omega]", "kinetic_energy [K0]"
@@ -68,7 +68,7 @@ def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str) -> None:
     differs = ~np.isclose(energy, curves[rigid][ENERGY])
     house_style.line(panels[-1], curves, newton, TILT, ENERGY, differs, **NEWTON)
     panels[-1].fill_between(tilt, 1, energy, where=energy > 1, interpolate=True, **CREATED)
-    panels[-1].set_xticks([-60, 0, 60], [rf"${angle}\degree$" for angle in (-60, 0, 60)])
+    panels[-1].set_xticks([-60, 0, 60])
     panels[-1].set_xlim(tilt[[0, -1]])
 
 
@@ -108,23 +108,17 @@ def _draw_contact(axes: Axes, curves: Curves, friction: float) -> Entries:
     ]
     axes.axhline(0, **house_style.GUIDE)
     axes.set(xlim=(0, None), ylabel=r"(d) force$/m_2\Omega v_2(0)$")
-    house_style.name_spans(axes, _phases(contact))
+    house_style.name_spans(axes, list(_phases(contact)))
     return lines
 
 
-def _phases(contact: Columns) -> list[tuple[float, float, str]]:
+def _phases(contact: Columns) -> Iterator[tuple[float, float, str]]:
     """Phases of stick and slip. A slip jams if the body approaches faster at its end."""
-    event, time, approach = contact["event"], contact[TIME], contact["normal_velocity [v2(0)]"]
-    changes = np.flatnonzero(np.isin(event, ["stick", "slip"]))
-    return [
-        (
-            time[start],
-            time[end],
-            f"{event[start]}s"
-            + (" and jams" if event[start] == "slip" and approach[end] > approach[start] else ""),
-        )
-        for start, end in zip(changes, [*changes[1:], len(time) - 1], strict=True)
-    ]
+    time, approach = contact[TIME], contact["normal_velocity [v2(0)]"]
+    for start, end, state in histories.states(contact, TIME):
+        first, last = np.interp([start, end], time, approach)
+        jams = state == "slip" and last > first
+        yield start, end, f"{state}s and jams" if jams else f"{state}s"
 
 
 def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
@@ -145,5 +139,5 @@ def _draw_rod(axes: Axes, contact: Mapping[str, float]) -> None:
     arrow = {"arrowstyle": "-|>", "color": house_style.BLACK}
     axes.annotate("", (0.7 * way, 0.13), (0.15 * way, 0.13), arrowprops=arrow)
     axes.text(0.5 * way, 0.3, "$v_1$", **place)
-    lines = rf"$\alpha = {tilt:g}\degree$", r"$v_1(0)/v_2(0)$", f"$= {ratio:g}$"
+    lines = rf"tilt $\alpha = {tilt:g}\degree$", r"$v_1(0)/v_2(0)$", f"$= {ratio:g}$"
     axes.set_xlabel("\n".join(lines), fontsize=house_style.NOTE)

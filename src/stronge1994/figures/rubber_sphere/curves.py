@@ -12,12 +12,10 @@ import numpy as np
 
 from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import SIGNS, name, shifted
+from stronge1994.curve_names import ELASTIC, MODELS, SIGNS, name, shifted
 from stronge1994.figures.shared.curves import beside
-from stronge1994.figures.shared.curves.beside import MODELS
 from stronge1994.figures.shared.curves.sampling import vertices
 
-ELASTIC = "continuum"  # without loss, whatever the restitution
 # Impacts that are stated singly in the text of a paper, with their own parameters in source.yaml.
 STATED = {"Cross 2010": "2010", "Cross 2002": "2002"}
 X, E_T, ANGLE = "incidence [mu v2(0)]", "tangential_restitution [1]", "angle [deg]"

@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from stronge1994.csv_tables import Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import ELASTIC, name
 from stronge1994.figures.shared.drawing import beside, house_style
-from stronge1994.figures.shared.drawing.beside import ELASTIC, POINT
+from stronge1994.figures.shared.drawing.beside import POINT
 from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings
 
 X, E_T = "incidence [mu v2(0)]", "tangential_restitution [1]"

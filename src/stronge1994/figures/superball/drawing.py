@@ -51,6 +51,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         height = (-0.06 if at[1] < gap / 2 else 1.06) * gap
         axes.text(at[0], height, Regime[regime].words, **words)
     axes.set(xlim=(left, right), ylim=(-0.12 * gap, 1.12 * gap), aspect="equal")
+    axes.set_xlabel("distance from the first impact, m")
     groups = rf"$e = {throw['restitution']:g}$,  $\mu = {throw['friction']:g}$"
     axes.set_title(f"{groups},  rubber ball, gravity left out")
     house_style.legend_below(figure, entries[0::2], entries[1::2])

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.gridspec import SubplotSpec
 from matplotlib.patches import Patch
 
 from stronge1994.csv_tables import Columns, Curves
@@ -16,11 +15,10 @@ ERROR, MODEL, E = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 TOLERANCE, SPLINE = "tolerance [mu v2(0)]", "spline of continuum"
 OTHERS, BATCH_OF_OTHERS = "other_codes/impacts", 100
-ERROR_LABEL, TIME_LABEL = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact [s]"
+ERROR_LABEL, TIME_LABEL = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact, s"
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 # Range of errors that uncertain inputs hide.
 HIDDEN: Style = {"color": "0.9", "linewidth": 0, "zorder": 0.5, "label": r"uncertain $e$ and $\mu$"}
-FRONT: Style = {"color": house_style.BLACK, "linewidth": 0.6, "zorder": 0.9}
 
 
 def _mark(label: str, marker: str, colour: str, filled: bool = True) -> Style:
@@ -36,10 +34,10 @@ def _mark(label: str, marker: str, colour: str, filled: bool = True) -> Style:
 
 
 # A colour stands for what takes the energy: black for the normal element of the paper, blue for
-# viscosity, vermillion for plastic flow, green for an elastic contact. Grey formulas have none, and
+# viscosity, orange for plastic flow, green for an elastic contact. Grey formulas have none, and
 # other codes are purple.
 BLACK, ELASTIC = house_style.BLACK, house_style.GREEN
-VISCOUS, PLASTIC, OTHER = house_style.BLUE, house_style.VERMILLION, house_style.PURPLE
+VISCOUS, PLASTIC, OTHER = house_style.BLUE, house_style.ORANGE, house_style.PURPLE
 FORMULA = _mark("formula", "D", house_style.GREY)
 MARKS = {
     "rigid": FORMULA,
@@ -70,7 +68,7 @@ GROWTH = ("laws.brach", "lumped", "timestep.mindlin", "continuum", "annuli", SPL
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     """Draw error against time for the first restitution and the last, and time against batch.
 
-    A restitution below 1 has a panel for each loss. The title says how far the times scatter.
+    A restitution below 1 has a panel for each loss.
     """
     batches = sorted(settings["batches"])
     batch = batches[len(batches) // 2]
@@ -79,8 +77,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         for name, curve in curves.items():
             if curve[E][0] == e:
                 cases.setdefault((e, _loss(curve)), {})[name] = curve
-    figure = house_style.new(9.4)
-    grid = figure.add_gridspec(3, 2, height_ratios=[4, 4, 3.6])
+    figure = house_style.new(10.2)
+    grid = figure.add_gridspec(3, 2, height_ratios=[4, 4, 2.6])
     cells = grid[0, :], grid[1, 0], grid[1, 1]
     for letter, cell, ((e, loss), same) in zip("abc", cells, cases.items(), strict=False):
         axes = figure.add_subplot(cell, xscale="log", yscale="log")
@@ -88,33 +86,18 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         _draw_errors(axes, timed, f"time_{batch} [s]", numbers=letter == "a")
         if OTHERS in points and batch == BATCH_OF_OTHERS:
             _draw_others(axes, timed, f"time_{batch} [s]", points[OTHERS]["columns"])
-        _draw_front(axes, timed, f"time_{batch} [s]")
+        axes.margins(0.15, 0.08)
         axes.set(title=f"({letter}) $e = {e:g}$, {loss or 'elastic'} continuum", xlabel=TIME_LABEL)
         axes.set_ylabel(ERROR_LABEL, visible=letter != "c")
-    below = grid[2, :].subgridspec(1, 2, width_ratios=[2, 3])
-    growth = figure.add_subplot(below[0])
+    growth = figure.add_subplot(grid[2, :])
     _draw_growth(growth, next(iter(cases.values())), batches)
     first = settings["restitution"][0]
     growth.set(title=f"(d) $e = {first:g}$", xlabel="impacts together", ylabel=TIME_LABEL)
-    figure.suptitle(f"{batch} impacts together; {scatter(curves)}", fontsize=house_style.NOTE)
-    _add_legend(figure, below[1])
+    figure.suptitle(f"(a) to (c): {batch} impacts together", fontsize=house_style.NOTE)
+    styles = {str(style["label"]): style for style in MARKS.values()}
+    keys = [house_style.key(**style) for style in styles.values()] + [Patch(**HIDDEN)]
+    house_style.legend_below(figure, keys[:10], keys[10:])
     return figure
-
-
-def scatter(curves: Curves) -> str:
-    """How far the rounds of a time lie apart, over all times.
-
-    >>> scatter({"lumped": {"scatter_1 [1]": [0.02], "scatter_10 [1]": [0.3]}})
-    'times scatter by 16 % (median), 30 % at most'
-    """
-    found = [
-        cells[0]
-        for curve in curves.values()
-        for key, cells in curve.items()
-        if key.startswith("scatter_")
-    ]
-    median, largest = 100 * np.median(found), 100 * max(found)
-    return f"times scatter by {median:.0f} % (median), {largest:.0f} % at most"
 
 
 def _loss(curve: Columns) -> str:
@@ -163,31 +146,6 @@ def _draw_others(axes: Axes, curves: Curves, time: str, others: Columns) -> None
             axes.plot(times[rows], others[ERROR][same][rows], **MARKS[code])
 
 
-def _draw_front(axes: Axes, curves: Curves, time: str) -> None:
-    """Draw the Pareto front: a point above and to the right of it is worse in both."""
-    of_any_pair = [curve for curve in curves.values() if curve[MODEL][0] != SPLINE]
-    x, y = ([curve[column][0] for curve in of_any_pair] for column in (time, ERROR))
-    axes.margins(0.15, 0.08)
-    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-    if best := front(x, y):
-        x_front = [x[best[0]], *(x[i] for i in best), right]
-        axes.step(x_front, [high, *(y[i] for i in best), y[best[-1]]], where="post", **FRONT)
-    axes.set(xlim=(left, right), ylim=(low, high))
-
-
-def front(time: Sequence[float], error: Sequence[float]) -> list[int]:
-    """Indices of the Pareto front, the fastest first: no other point is as fast and as accurate.
-
-    >>> front([3.0, 1.0, 2.0, 2.5], [0.1, 0.5, 0.2, 0.3])
-    [1, 2, 0]
-    """
-    indices: list[int] = []
-    for index in sorted(range(len(time)), key=lambda i: (time[i], error[i])):
-        if not indices or error[index] < error[indices[-1]]:
-            indices.append(index)
-    return indices
-
-
 def _draw_growth(axes: Axes, curves: Curves, batches: Sequence[int]) -> None:
     """Draw time against the size of batch, with the finest setting of each model."""
     for model, dashes in zip(GROWTH, ("-", *house_style.DASHES), strict=True):
@@ -195,19 +153,3 @@ def _draw_growth(axes: Axes, curves: Curves, batches: Sequence[int]) -> None:
             solved = {b: curve[f"time_{b} [s]"][0] for b in batches if f"time_{b} [s]" in curve}
             style = MARKS[model] | {"linestyle": dashes, "linewidth": 0.9}
             axes.loglog(list(solved), list(solved.values()), **style)
-
-
-def _add_legend(figure: Figure, cell: SubplotSpec) -> None:
-    axes = figure.add_subplot(cell)
-    axes.axis("off")
-    styles = {str(style["label"]): style for style in MARKS.values()}
-    entries = [house_style.key(**style) for style in styles.values()]
-    entries += [Patch(**HIDDEN), house_style.key("Pareto front", **FRONT)]
-    axes.legend(
-        handles=entries,
-        loc="center",
-        ncols=2,
-        fontsize=house_style.NOTE,
-        handlelength=1.4,
-        columnspacing=1,
-    )

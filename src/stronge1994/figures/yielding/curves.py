@@ -5,17 +5,18 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from planarimpact import continuum
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from planarimpact.ground.arrays import Array, ArrayLike
+from stronge1994 import curve_names
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import ELASTIC_IN_SHEAR, name
 from stronge1994.figures.shared.curves import beside
 from stronge1994.figures.shared.curves.sampling import vertices
 
-ELASTIC_IN_SHEAR = "continuum.plastic-elastic-shear"  # no model of the registry
-MODELS = (*beside.MODELS, ELASTIC_IN_SHEAR)
+MODELS = (*curve_names.MODELS, ELASTIC_IN_SHEAR)
 # Columns of data/finite_elements/spheres.csv that tell its rows apart.
 LABELS = ("set", "contact", "run")
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -93,13 +94,8 @@ def share_of_elastic(restitution: float) -> tuple[Array, Array]:
     radius, displacement = motion.radius[:, 0], motion.time[: SPRINGS + 1, 0]
     approach = motion.approach[: SPRINGS + 1, 0]
     flow = motion.flowed(approach[:, None])[:, 0]
-    pulled = _integral(np.exp(flow), displacement)
-    force = np.exp(-flow) * (radius * pulled - _integral(pulled, radius))
-    elastic = radius * displacement - _integral(displacement, radius)
+    pulled = cumulative_trapezoid(np.exp(flow), displacement, initial=0)
+    force = np.exp(-flow) * (radius * pulled - cumulative_trapezoid(pulled, radius, initial=0))
+    elastic = radius * displacement - cumulative_trapezoid(displacement, radius, initial=0)
     kept = slice(SPRINGS // KEPT, None, SPRINGS // KEPT)
     return approach[kept] / approach[-1], force[kept] / elastic[kept]
-
-
-def _integral(values: Array, over: Array) -> Array:
-    steps = (values[1:] + values[:-1]) / 2 * np.diff(over)
-    return np.concatenate([[0.0], np.cumsum(steps)])

@@ -6,34 +6,17 @@ from matplotlib.figure import Figure
 
 from planarimpact.ground.arrays import Booleans
 from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from stronge1994.curve_names import ELASTIC_IN_SHEAR, name
 from stronge1994.figures.shared.drawing import beside, house_style
-from stronge1994.figures.shared.drawing.beside import ELASTIC_IN_SHEAR, POINT, STYLES
+from stronge1994.figures.shared.drawing.beside import POINT, STYLES
 from stronge1994.figures.shared.drawing.house_style import Points, Series, Settings
 
 X, W, E = "incidence [mu v2(0)]", "velocity [mu v2(0)]", "restitution [1]"
 APPROACH, SHARE = "approach [delta_max]", "share_of_elastic_force [1]"
-RMS = "rms_distance [mu v2(0)]"
 SPHERES, PUSHED = "finite_elements/spheres", "finite_elements/pushed"
 # Sets of runs that differ by restitution alone.
 SETS = ("calibration", "other restitutions")
 MODELS = (*beside.MODELS, ELASTIC_IN_SHEAR)
-
-
-def _distances(curves: Curves, runs: Columns) -> Curves:
-    """Root mean square distance of each model over all incidences, by restitution."""
-    alike = np.isin(runs["set"], SETS)
-    rows = [np.flatnonzero(alike & (runs["contact"] == one)) for one in np.unique(runs["contact"])]
-    # Contacts that were solved at fewer incidences would have another mean.
-    rows = [own for own in rows if len(own) == max(map(len, rows))]
-    rows.sort(key=lambda own: float(runs[E][own].mean()))
-    e = np.array([runs[E][own].mean() for own in rows])
-    tables = {}
-    for model in MODELS:
-        square = (curves[f"{model}, runs"][W] - runs[W]) ** 2
-        rms = np.sqrt([square[own].mean() for own in rows])
-        tables[f"rms of {model}"] = {E: e, RMS: rms}
-    return tables
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
@@ -41,7 +24,6 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     figure = house_style.new(6.3)
     panels = figure.subplots(2, 2)
     runs, contact = points[SPHERES], settings["contact"]
-    curves = curves | _distances(curves, runs["columns"])
     for letter, axes, e in zip("ab", panels[0], contact["restitution"], strict=True):
         axes.axhline(0, **house_style.GUIDE)
         beside.lines(axes, curves, name("e", e), X, W, MODELS)
@@ -59,10 +41,8 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         note = {"fontsize": house_style.NOTE, "va": "center", "textcoords": "offset points"}
         pushed.annotate(f"$e = {e:g}$", end, (3, 0), annotation_clip=False, **note)
     pushed.set(xlim=(0, 1), ylim=(0, 1.1), title="(c) pushed sideways while it yields")
-    for model in MODELS:
-        house_style.line(by_restitution, curves, f"rms of {model}", E, RMS, **STYLES[model])
+    _draw_distances(by_restitution, curves, runs["columns"])
     by_restitution.axhline(runs["sigma"][1], **house_style.GUIDE)
-    by_restitution.set(yscale="log", title="(d) against finite elements")
     keys = [house_style.key(**STYLES[model]) for model in MODELS]
     house_style.legend_below(figure, keys[:3], [*keys[3:], measured])
     return figure
@@ -72,3 +52,18 @@ def _draw_points(axes: Axes, series: Series, rows: Booleans) -> house_style.Entr
     """Draw some points of finite elements, and return their entry of the legend."""
     own = {axis: series[axis][rows] for axis in "xy"}
     return house_style.measured(axes, series | own, label="finite elements", **POINT)
+
+
+def _draw_distances(axes: Axes, curves: Curves, runs: Columns) -> None:
+    """Draw the root mean square distance of each model over all incidences, by restitution."""
+    alike = np.isin(runs["set"], SETS)
+    rows = [np.flatnonzero(alike & (runs["contact"] == one)) for one in np.unique(runs["contact"])]
+    # Contacts that were solved at fewer incidences would have another mean.
+    rows = [own for own in rows if len(own) == max(map(len, rows))]
+    rows.sort(key=lambda own: float(runs[E][own].mean()))
+    e = [runs[E][own].mean() for own in rows]
+    for model in MODELS:
+        square = (curves[f"{model}, runs"][W] - runs[W]) ** 2
+        axes.plot(e, np.sqrt([square[own].mean() for own in rows]), **STYLES[model])
+    axes.set(yscale="log", xlabel="restitution", ylabel=r"rms distance, $\mu v_2(0)$")
+    axes.set_title("(d) against finite elements")

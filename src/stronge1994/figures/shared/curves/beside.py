@@ -12,15 +12,6 @@ from planarimpact.ground.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import EACH, SIGNS, name, shifted
 
-# Continua that lose energy by relaxation, with one time in shear and compression, or by yield.
-CONTINUA = ("continuum.viscous", "continuum.plastic")
-MODELS = (
-    *CONTINUA,
-    "lumped.viscous",
-    "lumped.unloading-stiffness",
-    "lumped.hysteretic",
-)
-
 
 def rebound(model: str, tolerance: float, *groups: ArrayLike) -> Rebound:
     """State at separation; `groups` as for `models.rebound`, `tolerance` of a continuum.

@@ -72,41 +72,19 @@ GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
 SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
-# Light and thin: continua that lose energy, beside the curves of a figure of the paper.
-LOSSY_CONTINUA: dict[str, tuple[str, Style]] = {
-    "continuum.viscous": (
-        "continuum, viscous",
-        {"color": SKY, "linestyle": DASHES[4], "linewidth": 1.0, "zorder": 1.9},
-    ),
-    "continuum.plastic": (
-        "continuum, plastic",
-        {"color": ORANGE, "linestyle": DASHES[3], "linewidth": 1.0, "zorder": 1.9},
-    ),
-}
 UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
 INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
 REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
 # Largest forces of an impact, to be put between dollar signs.
 F1MAX, F2MAX = r"F_{1\mathrm{max}}", r"F_{2\mathrm{max}}"
-# Labels of columns in mathematical letters; others are written as they are named.
-LABELS = {
+# Quantities after an impact and their incidence in the paper's letters.
+LETTERS = {
     "incidence [mu v2(0)]": INCIDENCE,
     "velocity [mu v2(0)]": REBOUND,
-    "restitution [1]": "restitution $e$",
-    "deflection [v2(0)/Omega]": r"deflection over $v_2(0)/\Omega$",
-    "force [m2 Omega v2(0)]": r"force over $m_2\Omega v_2(0)$",
-    "time [t_c]": "$t/t_c$",
-    "time [1/Omega]": r"$\Omega t$",
-    "tilt [deg]": r"tilt $\alpha$",
-    "peak_force [m2 Omega S]": r"largest force over $m_2\Omega S$",
-    "friction_dissipation [m2 S^2/2]": r"dissipated by friction, $2D_1/m_2S^2$",
     "tangential_velocity [v2(0)]": "$v_1(t_f)/v_2(0)$",
     "normal_velocity [v2(0)]": "$v_2(t_f)/v_2(0)$",
     "kinetic_energy [K0]": "$K(t_f)/K(0)$",
-    "approach [delta_max]": r"$\delta/\delta_\mathrm{max}$",
-    "rms_distance [mu v2(0)]": r"rms distance $[\mu v_2(0)]$",
-    "place [m]": "distance from the first impact [m]",
 }
 
 STYLE = {
@@ -155,8 +133,7 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
         layout.execute(figure)
     figure.set_layout_engine("none")
     for axes in figure.axes:
-        locator = axes.get_axes_locator()  # of a bar of colours
-        axes.apply_aspect(locator(axes, None) if locator else None)
+        axes.apply_aspect()
         axes.set_position(np.round(axes.get_position().bounds, 6))
     # `Figure.savefig` would draw once more to solve the layout again.
     figure.dpi = 200  # of the PNG, and of pixels inside the SVG
@@ -179,14 +156,8 @@ def symbols(name: str) -> str:
 
 
 def of_column(column: str) -> str:
-    """Label of a column for a reader.
-
-    >>> of_column("rebound_angle [deg]"), of_column("time [t_c]"), of_column("digits [1]")
-    ('rebound angle [deg]', '$t/t_c$', 'digits')
-    """
-    name, _, unit = column.rstrip("]").partition(" [")
-    words = name.replace("_", " ") + ("" if unit == "1" else f" [{unit}]")
-    return LABELS.get(column, words)
+    """Label of a column for a reader."""
+    return LETTERS.get(column, curve_names.column(column))
 
 
 def line(
@@ -279,22 +250,6 @@ def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> En
             label += f", {symbols(pair)}"
             style = style | {"linestyle": of_restitution(float(pair.removeprefix("e = ")))}
         entries[label] = line(axes, curves, name, x, y, label=label, **style)
-    return list(entries.values())
-
-
-def lossy_continua(axes: Axes, curves: Curves, x: str, y: str, end: str = "") -> Entries:
-    """Draw the continua that lose energy, and return entries of the legend.
-
-    They are known by the beginnings of their names; only those are drawn whose names end with
-    `end`. An entry has the last part of the name.
-    """
-    entries = {}
-    for name in curves:
-        model, _, rest = name.partition(", ")
-        if model in LOSSY_CONTINUA and name.endswith(end):
-            words, style = LOSSY_CONTINUA[model]
-            label = f"{words}, {symbols(rest.split(', ')[-1])}"
-            entries[label] = line(axes, curves, name, x, y, label=label, **style)
     return list(entries.values())
 
 
