@@ -68,7 +68,7 @@ def docstring(check: str) -> str:
     function, bound = called(check)
     words = " ".join((inspect.getdoc(function) or "").split())
     for name, argument in bound.arguments.items():
-        words = words.replace(f"{{{name}}}", str(argument))
+        words = words.replace(f"{{{name}}}", str(argument).strip("[]"))
     return words
 
 

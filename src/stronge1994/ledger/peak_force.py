@@ -154,10 +154,8 @@ def rigid_limit(shares: Sequence[float]) -> float:
             printed = peak_force.eq_34_friction(slope, motion.friction, beta)
         else:
             printed = peak_force.eq_35_friction(slope, motion.friction)
-        for exact in (
-            squared(min(share, 1)) ** 0.5,
-            rigid.rebound(share * beta, beta).peak_friction,
-        ):
+        halted = squared(min(share, 1)) ** 0.5
+        for exact in (halted, rigid.rebound(share * beta, beta).peak_friction):
             gaps.append(printed / motion.friction - exact * peak_force.eq_28_normal(slope))
     return largest(gaps)
 
@@ -219,23 +217,19 @@ def simultaneous(impact: Contact) -> Gaps:
     yield gap / impact.compression_time
 
 
-def _angle_of_peak(friction: float, model: Model = _lumped) -> float:
-    return landmarks.peak(ANGLES, _forces(model, friction))
-
-
-def peak_angle(friction: float) -> float:
+def peak_angle(friction: float, model: Model = _lumped) -> float:
     r"""Angle of the largest peak of friction, $\mu = {friction}$, in degrees."""
-    return _angle_of_peak(friction)
+    return landmarks.peak(ANGLES, _forces(model, friction))
 
 
 def peak_angle_rises() -> float:
     r"""Smallest rise in degrees of the angle of the largest peak between $\mu$ of Fig. 7."""
-    return float(np.min(np.diff([_angle_of_peak(mu) for mu in FRICTIONS])))
+    return float(np.min(np.diff([peak_angle(mu) for mu in FRICTIONS])))
 
 
 def _incidence_of_peak(model: Model) -> Array:
     """Incidence of the largest peak, for each friction of Fig. 7."""
-    return np.array([np.tan(np.radians(_angle_of_peak(mu, model))) / mu for mu in FRICTIONS])
+    return np.array([np.tan(np.radians(peak_angle(mu, model))) / mu for mu in FRICTIONS])
 
 
 def peak_at_intermediate_incidence() -> float:
