@@ -185,7 +185,11 @@ def data(tmp_path):
 
 # What else a table of data/ may hold is tried in tests/unit/test_reference_data.py.
 BAD_DATA = [
-    ("-0.027", "-O.027", "rebound.csv, line 4, column 'velocity .*': '-O.027' is not a"),
+    (
+        "0.586,-0.027",
+        "0.586,-O.027",
+        "rebound.csv, line 4, column 'velocity .*': '-O.027' is not a",
+    ),
     ("0.586,-0.027\n", "", r"series.rebound.points = 17: .*rebound.csv has 16 points"),
 ]
 
