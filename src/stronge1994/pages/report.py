@@ -20,7 +20,7 @@ from stronge1994.csv_tables import Row
 from stronge1994.curve_names import is_of_paper, unit
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
-from stronge1994.formulas import mathematical, number, plain
+from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
 from stronge1994.pages import (
@@ -107,7 +107,6 @@ def page(values: TemplateValues, template: str | Path) -> str:
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
-        "microseconds": lambda seconds: number(f"{1e6 * float(seconds)}"),
         "measured": measured,
     }
     environment.tests["in_paper"] = is_of_paper
