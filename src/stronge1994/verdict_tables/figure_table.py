@@ -29,8 +29,9 @@ figure solved right as printed              beside others: number of points,
 class Item(NamedTuple):
     """A part of a cell: what it says, and the comparisons that say it.
 
-    `name` is a source or an entry of the ledger; `size` says how large a difference is, in `unit`
-    or as two numbers. `points` are those of a source; of other items it counts the comparisons.
+    The worst comparison stands first. `name` is a source or an entry of the ledger; `size` says how
+    large a difference is, in `unit` or as two numbers. `points` are those of a source; of other
+    items it counts the comparisons.
     """
 
     rows: list[str]
@@ -100,14 +101,18 @@ def _source_of(row: Row) -> str:
     return row["reference"].partition("/")[0]
 
 
+def _worst_first(rows: Iterable[Row]) -> list[Row]:
+    """Rows by verdict; one that cannot be is worse than all."""
+    rank = {verdict: place for place, verdict in enumerate(ORDER)}
+    return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))
+
+
 def _names(rows: Iterable[Row]) -> list[str]:
-    return [row["comparison"] for row in rows]
+    return [row["comparison"] for row in _worst_first(rows)]
 
 
 def _worst(rows: Iterable[Row]) -> str:
-    """The worst verdict; one that cannot be is worse than all."""
-    rank = {verdict: place for place, verdict in enumerate(ORDER)}
-    return min((row["verdict"] for row in rows), key=lambda verdict: rank.get(verdict, -1))
+    return _worst_first(rows)[0]["verdict"]
 
 
 def _solved(rows: Sequence[Row]) -> Iterator[Item]:
