@@ -9,7 +9,7 @@ from stronge1994.figures.shared.drawing import beside, house_style
 from stronge1994.figures.shared.drawing.house_style import COLOURS, Points, Settings, Style
 
 X, Y = "angle [deg]", "friction_dissipation [m2 S^2/2]"
-PALE: Style = {"color": house_style.PALE, "linewidth": 2.5, "label": "balance of energy"}
+PALE: Style = {"color": "0.7", "linewidth": 2.5, "label": "balance of energy"}
 
 
 def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
