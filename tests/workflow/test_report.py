@@ -165,10 +165,10 @@ def test_a_row_of_the_verdicts_says_what_was_allowed_and_why(first_run, report):
 
 def test_every_known_difference_is_listed_with_its_bound(first_run, report):
     text = report.read_text(encoding="utf-8")
-    shown = text[text.index('<details id="known">') :].split("</details>")[0]
+    shown = text[text.index('<p id="known">') :].split("</details>")[0]
     rows = rows_of(first_run[0] / "results/verdicts.csv")
     known = [row for row in rows if row["verdict"] in verdict_table.DIFFERENCES]
-    assert f"<summary>The {len(known)} known differences: " in shown
+    assert f"<summary>The {len(known)} known differences: " in text
     listed = shown.split("<tr>")[2:]
     for row, line in zip(known, listed, strict=True):
         assert f'<a href="#{row["comparison"]}">' in line and row["question"] in line
@@ -189,7 +189,7 @@ def test_a_figure_has_its_own_picture_words_verdicts_and_settings(first_run, rep
     assert re.findall(r'<tr id="([^"]*)"', shown) == [row["comparison"] for row in mine]
     assert "<tr" not in re.sub("<details>.*?</details>", "", shown, flags=re.S)  # all are folded
     told = (report.parent / "sources.html").read_text(encoding="utf-8")
-    told = told[told.index(f'<details id="config-{name}">') :].split("<pre")[1].split("</pre>")[0]
+    told = told[told.index(f'<pre id="config-{name}"') :].split("</pre>")[0]
     settings = yaml.safe_load(html.unescape(told.partition(">")[2]))
     config = configuration.with_values(CONFIG)
     comparisons = config["comparisons"].items()

@@ -198,7 +198,7 @@ def test_a_crash_and_a_new_series_are_judged_and_all_the_rest_is_there(finished)
     solver.write_text(good.replace("    named = {", "    raise ArithmeticError('oh')\n    {"))
     picture = finished / "src/stronge1994/figures/fig6/drawing.py"
     drawn = picture.read_text()
-    picture.write_text(drawn.replace("    ends = []", "    ends = [][1]", 1))
+    picture.write_text(drawn.replace("    paper = []", "    paper = [][1]", 1))
     said = finished.refuses_to_pass()
     found = verdicts(finished)
     wrong = {name for name, verdict in found.items() if verdict in FAILS}

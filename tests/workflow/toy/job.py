@@ -45,7 +45,7 @@ with record.recorded(snakemake) as settings:
         right = float(csv_tables.read_rows(snakemake.input.curves)[0]["curve"]) < 10
         verdict = "agrees" if right else "diverges"
         Path(made.verdicts).write_text(
-            f"comparison,verdict,note,found,p,points\nrow,{verdict},,,,\n"
+            f"comparison,verdict,note,found,p,points,allowed,regression\nrow,{verdict},,,,,,\n"
         )
         Path(made.ledger).write_text("entry,holds,verdict\n")
         Path(made.problems).write_text("problem\n")
