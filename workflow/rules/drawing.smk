@@ -24,7 +24,7 @@ rule draw:
 
 
 use rule draw as draw_with_slide with:
-    # Also one point of the figure for a projector, on a light and on a dark ground.
+    # Also one panel of the figure for a projector, on a light and on a dark ground.
     output:
         svg="figures/{figure}.svg",
         png="figures/{figure}.png",
