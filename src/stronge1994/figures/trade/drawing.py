@@ -113,8 +113,8 @@ def _draw_errors(axes: Axes, curves: Curves, time: str, numbers: bool) -> None:
         house_style.line(axes, curves, name, time, ERROR, **MARKS[curve[MODEL][0]])
         if numbers and (text := _number(curve)):
             # Names stand on the left: formulas are fast, and of nearly one time.
-            left = {"xytext": (-5, 0), "ha": "right", "va": "center"}
-            place = left if text.isalpha() else {"xytext": (4, 3)}
+            left: Style = {"xytext": (-5, 0), "ha": "right", "va": "center"}
+            place: Style = left if text.isalpha() else {"xytext": (4, 3)}
             place |= {"textcoords": "offset points", "fontsize": house_style.NOTE}
             axes.annotate(text, (curve[time][0], curve[ERROR][0]), **place)
     for curve in list(curves.values())[:1]:
