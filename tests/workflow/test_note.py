@@ -8,6 +8,7 @@ import pytest
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.figures.inelastic import trials as inelastic
+from stronge1994.figures.shared.drawing.beside import MODELS
 from stronge1994.pages import key_numbers, note
 from tests.workflow import browser
 from tests.workflow.project import ROOT
@@ -44,7 +45,7 @@ def test_it_needs_no_other_file_and_its_links_lead_somewhere(made):
 
 def test_its_chi_squared_is_that_of_the_verdicts(verdicts, numbers):
     rows = {row["comparison"]: row for row in verdicts}
-    for model in note.MODELS:
+    for model in MODELS:
         row = rows[f"inelastic-{model}-pairs"]
         assert f"{numbers[f'pairs.{model}.chi2']:.3g}" == row["chi^2"]
         assert f"{numbers[f'pairs.{model}.p']:.2g}" == f"{float(row['p']):.2g}"
@@ -68,11 +69,11 @@ def test_what_it_says_in_words_is_so(numbers, first_run, inventory):
     """The rubber sphere by velocity and spin, the farthest pair, and how other limits differ."""
     n = numbers
     assert n["pairs.lumped.hysteretic.failed"] == n["pairs.spreads"] == 10
-    for model in note.MODELS:
+    for model in MODELS:
         assert n[f"pairs.{model}.the stated sigmas are two sigmas.p"] < 0.01
-    for model in note.MODELS[1:]:  # the range of the verdicts is about the kindest to them
+    for model in MODELS[1:]:  # the range of the verdicts is about the kindest to them
         assert n[f"pairs.{model}.chi2"] < n[f"pairs.{model}.least"] + 0.1
-    distance = {model: n[f"rubber.{model}.distance"] for model in note.MODELS}
+    distance = {model: n[f"rubber.{model}.distance"] for model in MODELS}
     assert min(distance, key=distance.get) == "lumped.hysteretic"
     assert n["rubber.lumped.hysteretic.from_velocity"] < n["rubber.continuum.viscous.from_velocity"]
     assert n["rubber.lumped.hysteretic.from_spin"] > n["rubber.continuum.viscous.from_spin"]

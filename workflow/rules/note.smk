@@ -13,8 +13,8 @@ rule note:
     """A note on the replication of the paper, and the table of the numbers that it states."""
     input:
         plan=planned("note", "write_note", "pages", "figures/inelastic/trials.py",
-            "figures/shared/drawing", "ledger", "printed", "plan", "reference_data", "run",
-            "judging", "verdict_tables", settings=lambda _: MEASURED,
+            "ledger", "printed", "plan", "reference_data", "run", "judging", "verdict_tables",
+            settings=lambda _: MEASURED,
             reads=lambda _: [series["path"] for series in MEASURED.values()]),
         template="workflow/report/note.html",
         parts=expand("workflow/report/{part}",

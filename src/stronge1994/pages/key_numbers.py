@@ -13,8 +13,8 @@ import numpy as np
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.csv_tables import Columns, Curves, Row
+from stronge1994.curve_names import MODELS
 from stronge1994.figures.inelastic import trials as inelastic
-from stronge1994.figures.shared.drawing.beside import MODELS
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import ledger_page
 from stronge1994.verdict_tables import verdict_table

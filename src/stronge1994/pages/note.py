@@ -13,14 +13,6 @@ from stronge1994.curve_names import is_of_paper
 from stronge1994.pages import key_numbers, templates
 from stronge1994.verdict_tables import figure_table, verdict_table
 
-# Models below e = 1, in the order of the note.
-MODELS = (
-    "lumped.hysteretic",
-    "lumped.unloading-stiffness",
-    "lumped.viscous",
-    "continuum.viscous",
-    "continuum.plastic",
-)
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 # Smaller probabilities are shown as `< 0.001`.
 LEAST_PROBABILITY = 1e-3
@@ -55,7 +47,6 @@ def page(
     environment.filters |= {"probability": probability, "count": count}
     return environment.get_template(Path(template).name).render(
         n=numbers,
-        models=MODELS,
         figures=[row for row in figure_table.of_run(verdicts) if is_of_paper(row.figure)],
         pictures={name: templates.embedded(svg) for name, svg in pictures.items()},
     )

@@ -1,4 +1,4 @@
-"""Page of the sources of data, settings, versions and times of a run."""
+"""Page of the sources of data, settings and versions of a run."""
 
 import json
 from collections.abc import Mapping

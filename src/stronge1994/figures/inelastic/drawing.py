@@ -9,13 +9,12 @@ from scipy.special import chdtri
 from planarimpact.ground.arrays import Array
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
-from stronge1994.figures.inelastic.trials import SIGNIFICANCE, goodness, trials
+from stronge1994.figures.inelastic.trials import BETA_0, SIGNIFICANCE, E, goodness, trials
 from stronge1994.figures.shared.drawing import beside, house_style
 from stronge1994.figures.shared.drawing.beside import MODELS, POINT, STYLES
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Series, Settings
 
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 # Distance of points of one restitution, which are drawn side by side.
 PAIR_SPACING = 0.0055
 # Distance of the models' marks in one trial, over the height of its row.

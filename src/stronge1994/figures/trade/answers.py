@@ -100,6 +100,4 @@ def write(curves: str, table: str, cheapest: str) -> None:
     rows = csv_tables.read_rows(curves)
     every = [{"name": row.pop("curve"), **row} for row in ordered([dict(row) for row in rows])]
     for path, rows_of_table in ((table, every), (cheapest, which_model(rows))):
-        csv_tables.write_rows(
-            path, list(rows_of_table[0]), [list(row.values()) for row in rows_of_table]
-        )
+        csv_tables.write_table(path, rows_of_table, list(rows_of_table[0]))
