@@ -3,7 +3,6 @@
 import json
 import os
 import subprocess
-import sys
 import time
 
 import pytest
@@ -60,17 +59,6 @@ def first_run(tmp_path_factory):
 def finished(first_run, tmp_path):
     """A copy of the project after a full run, free to change."""
     return copy_of(first_run[0].folder, tmp_path, PARTS + LEFT)
-
-
-@pytest.fixture(scope="session")
-def interface(tmp_path_factory):
-    """Pages of the interface, as the target `site` makes them."""
-    folder = tmp_path_factory.mktemp("site") / "interface"
-    # In a process of its own: pdoc looks at what of the packages has been imported.
-    write = "import sys; from stronge1994.pages import interface; interface.write(*sys.argv[1:])"
-    command = [sys.executable, "-c", write, str(folder)]
-    subprocess.run(command, check=True, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
-    return folder
 
 
 @pytest.fixture(scope="session")
