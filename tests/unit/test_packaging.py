@@ -58,7 +58,7 @@ def test_wheel_and_source_archive_hold_the_package_alone(tmp_path):
     """The archive has only tests that find there all that they need; the wheel is made from it."""
     source = tmp_path / "source"
     ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
-    for part in ("src", "tests", "data/lumped_extremes", "data/scenes"):
+    for part in ("src", "tests", "data/lumped_extremes", "data/lumped_viscous", "data/scenes"):
         shutil.copytree(ROOT / part, source / part, ignore=ignore)
     for name in ("pyproject.toml", "MANIFEST.in", "LICENSE", "CITATION.cff", "CHANGELOG.md"):
         shutil.copy(ROOT / name, source)
