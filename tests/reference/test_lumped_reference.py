@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from planarimpact import Regime, lumped
 from tests.reference_solutions import (
     extreme_tables,
