@@ -133,7 +133,9 @@ def test_a_wrong_solver_is_seen(fault, scripts):
 def test_the_page_checks_itself(solver, answer, scripts, answers):
     given = json.dumps(answers)
     assert scripts.evaluate(f"check.differing({given})") == []
-    wrong = node.expression(solver, answer, answer.replace("velocity,", "velocity: 0.9 * velocity,"))
+    wrong = node.expression(
+        solver, answer, answer.replace("velocity,", "velocity: 0.9 * velocity,")
+    )
     checked = f"(({solver}) => {node.expression('check')})({wrong}).differing({given}).length"
     assert scripts.evaluate(checked) > 20
 
