@@ -79,9 +79,11 @@ class Run:
 
 @functools.cache
 def starter():
-    """The process that starts Snakemake, see started.py."""
+    """The process that starts Snakemake, see started.py, as in an activated environment."""
     command = [sys.executable, "-P", str(ROOT / "tests/workflow/started.py")]
-    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    activated = os.environ | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    return subprocess.Popen(command, env=activated, text=True, **pipes)
 
 
 def _asked(*question):
@@ -121,7 +123,7 @@ class Project:
 
     def planned(self, *arguments):
         """How often each rule would run."""
-        result = self.run("--dry-run", "--quiet", "host", *arguments)
+        result = self.run(*arguments, "--dry-run", "--quiet", "host")
         assert result.returncode == 0, result.stdout
         table = result.stdout.split("Job stats:")[-1].split("total")[0]
         return {rule: int(n) for rule, n in re.findall(r"^(\w+) +(\d+)$", table, flags=re.M)}
