@@ -7,14 +7,20 @@ import time
 
 import pytest
 
-from stronge1994 import plan, reference_data
+from stronge1994 import plan
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
-from tests.workflow import browser, node
+from tests.workflow import browser, node, project
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, Project, copy_of
 
 collect_ignore = ["toy"]  # a workflow for test_proof.py
+
+
+def pytest_sessionfinish():
+    """End the process that starts Snakemake."""
+    if project.starter.cache_info().currsize:
+        project.starter().communicate()
 
 
 def pytest_collection_modifyitems(items):
@@ -64,8 +70,7 @@ def finished(first_run, tmp_path):
 @pytest.fixture(scope="session")
 def inventory():
     """All sources of data/. Do not change them."""
-    schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
-    return reference_data.load_all(ROOT / "data", schema)
+    return project.sources()
 
 
 @pytest.fixture(scope="session")
