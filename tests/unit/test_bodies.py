@@ -8,6 +8,7 @@ from scipy.special import beta
 
 from planarimpact import bodies, lumped
 from planarimpact.bodies import HALF_SPACE, Body, Material, Motion
+from tests.reference_solutions.inelastic_contact import motion_with, plastic_motion
 
 CERAMIC, GLASS = Material(380e9, 0.23), Material(70e9, 0.25)
 STEEL_BALL = bodies.solid_sphere(0.0127, 7800.0)
@@ -58,11 +59,6 @@ def test_dissimilar_materials():
     assert bodies.stiffness_ratio(GLASS, nearly_rigid) == pytest.approx(
         bodies.stiffness_ratio(GLASS), rel=1e-12
     )
-
-
-def test_effective_radius():
-    assert bodies.effective_radius(0.02) == 0.02
-    assert bodies.effective_radius(0.02, [0.02, np.inf]) == pytest.approx([0.01, 0.02], rel=1e-14)
 
 
 @pytest.mark.parametrize("speed", [1e-200, 1e-3, 1.0, 1e200])
@@ -133,6 +129,7 @@ def test_arrays_broadcast():
 
 
 STEEL = {"mass": 0.0327, "effective_modulus": 115e9, "effective_radius": 0.01}
+RUBBER = {"mass": 0.3, "effective_modulus": 3e6, "effective_radius": 0.02}
 LAWS = {
     "viscous": (bodies.viscous_restitution, bodies.relaxation_time),
     "plastic": (bodies.plastic_restitution, bodies.yield_pressure),
@@ -165,6 +162,29 @@ def test_yield_begins_at_the_yield_speed():
     assert (bodies.plastic_restitution(0.9 * speed, pressure, **STEEL) == 1).all()
     assert (bodies.plastic_restitution(1.01 * speed, pressure, **STEEL) < 1).all()
     assert bodies.yield_pressure(1.0, speed, **STEEL) == pytest.approx(pressure, rel=1e-13)
+
+
+@pytest.mark.parametrize("ball", [STEEL, RUBBER], ids=["steel", "rubber"])
+@pytest.mark.parametrize(("speed", "e"), [(1e-3, 0.99), (30.0, 0.8), (0.7, 0.3), (1e-3, 0.05)])
+def test_restitution_and_force_are_those_of_the_motion(ball, speed, e):
+    """The motions by SciPy, in units of effective mass, modulus, radius and speed."""
+    mass, modulus, radius = ball.values()
+    length = (mass * speed**2 / (modulus * np.sqrt(radius))) ** 0.4
+    unit = modulus * np.sqrt(radius) * length**1.5
+    motions = {}
+    motions["viscous"], tau = motion_with("continuum.viscous", e)
+    motions["plastic"], yield_radius = motion_with("continuum.plastic", e)
+    materials = {"viscous": tau * length / speed}
+    materials["plastic"] = 2 / np.pi * modulus * yield_radius * np.sqrt(length / radius)
+    for loss, (law, inverse) in LAWS.items():
+        material = materials[loss]
+        assert law(speed, material, **ball) == pytest.approx(e, abs=1e-8)
+        assert inverse(e, speed, **ball) == pytest.approx(material, rel=1e-6)
+        found = bodies.peak_force(speed=speed, restitution=e, loss=loss, **ball)
+        assert found == pytest.approx(motions[loss].peak * unit, rel=1e-8)
+    elastic = plastic_motion(1.2)  # it never yields
+    found = bodies.hertz_peak_force(speed=speed, **ball)
+    assert elastic.restitution == pytest.approx(1) and found == pytest.approx(elastic.peak * unit)
 
 
 @pytest.mark.parametrize("loss", LAWS)
