@@ -70,7 +70,7 @@ def every_kind(law=None):
         {"restitution": 1.0, "loss": ""},
         {},
         {"loss": " plastic"},
-        {"restitution": 0.2, "friction": 2.0},
+        {"restitution": 0.1, "friction": 2.0},
         {"restitution": 0.2, "loss": "plastic", "other_gyration [m]": 0.015},
         {"friction": 0.01},
         {"friction": 0.01, "loss": "plastic"},
@@ -305,7 +305,7 @@ def by_incidence(x, **more):
 @pytest.mark.parametrize("e", [pytest.param(0.95, marks=pytest.mark.long), 0.8, 0.4, 0.25])
 def test_model_form_is_the_distance_of_the_two_continua(e):
     """By the table it is wrong by two errors of the table at most, solved by 0.01 mu v2(0)."""
-    x = np.linspace(0.0, 6.0, 7) if e > 0.3 else np.array([0.5, 2.5, 3.5])
+    x = np.linspace(0.0, 6.0, 7) if e > 0.3 else np.array([0.5, 2.5])
     velocities = [
         continuum.rebound(x, *GROUPS, e, loss=loss, tolerance=1e-4).velocity
         for loss in continuum.LOSSES
