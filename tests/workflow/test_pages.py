@@ -3,20 +3,24 @@
 axe (https://github.com/dequelabs/axe-core) finds what people with a disability cannot read or use.
 """
 
+import doctest
 import functools
+import html
+import inspect
 import json
 import re
 import shutil
 from html.parser import HTMLParser
 from importlib import resources
-from pathlib import Path
 from urllib.parse import parse_qsl, unquote, urlsplit
 
 import pytest
 
+import planarimpact
 from stronge1994.pages import templates
+from tests.workflow.project import LEFT, PARTS, ROOT, copy_of
 
-FOLDER = Path(__file__).parents[2] / "workflow/report"
+FOLDER = ROOT / "workflow/report"
 BAR = re.findall(r'^  \("(.+?)", ', (FOLDER / "site.html").read_text(encoding="utf-8"), flags=re.M)
 INTERFACE = "interface/planarimpact.html"
 OF_LECTURES = "slides_", "answers_"
@@ -112,39 +116,60 @@ def figures(first_run):
     return first_run[0] / "figures"
 
 
-def test_the_bar_names_every_page(figures):
-    # A lecture links its own slides and answers.
-    written = {
-        path.name for path in figures.glob("*.html") if not path.name.startswith(OF_LECTURES)
-    }
-    assert sorted(BAR) == sorted(written)
-
-
-@pytest.mark.parametrize("name", BAR)
-def test_a_page_links_to_all_others_and_its_content_is_a_landmark(figures, name):
-    page = Page(figures / name)
-    assert page.bar == BAR
-    assert page.ids["main"] == "main"
-
-
-def test_the_interface_links_to_all_pages(interface):
-    assert Page(interface.parent / INTERFACE).bar == [f"../{file}" for file in BAR]
-
-
-def test_every_link_leads_somewhere(figures):
-    names = [path.name for path in figures.glob("*.html")]
-    assert dead_links(figures, names) == []
-
-
-def test_the_site_is_whole_wherever_it_is_unpacked(finished):
-    result = finished.run("site")
+@pytest.fixture(scope="module")
+def site(first_run, tmp_path_factory):
+    """The site, made after a run and unpacked somewhere else."""
+    folder = tmp_path_factory.mktemp("site")
+    project = copy_of(first_run[0].folder, folder / "project", PARTS + LEFT)
+    result = project.run("site")
     assert result.returncode == 0, result.stdout
-    shutil.unpack_archive(finished / "results/site.zip", finished / "stick/unpacked")
-    site = finished / "stick/unpacked/site"
+    shutil.unpack_archive(project / "results/site.zip", folder / "unpacked")
+    return folder / "unpacked/site"
+
+
+def test_every_page_has_a_bar_of_all_pages_and_a_landmark(figures):
+    # A lecture links its own slides and answers.
+    written = {path.name for path in figures.glob("*.html")}
+    assert sorted(BAR) == sorted(name for name in written if not name.startswith(OF_LECTURES))
+    for name in BAR:
+        page = Page(figures / name)
+        assert page.bar == BAR and page.ids["main"] == "main", name
+
+
+def test_every_link_of_the_site_leads_somewhere_in_it(site, figures):
     pages = [str(path.relative_to(site)) for path in site.rglob("*.html")]
     assert set(pages) > {*BAR, INTERFACE}
     assert INTERFACE in Page(site / "index.html").links
+    assert Page(site / INTERFACE).bar == [f"../{file}" for file in BAR]
     assert dead_links(site, pages) == []
+    assert dead_links(figures, [path.name for path in figures.glob("*.html")]) == []
+
+
+def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(site):
+    page = (site / "interface/planarimpact/lumped.html").read_text(encoding="utf-8")
+    words = html.unescape(re.sub("<[^>]+>", "", page))
+    assert "incidence: ArrayLike" in words and ") -> Rebound:" in words
+    for room in planarimpact.__all__:
+        if inspect.ismodule(getattr(planarimpact, room)):
+            assert (site / f"interface/planarimpact/{room}.html").is_file(), room
+
+
+@pytest.mark.parametrize("every", [6, pytest.param(1, marks=pytest.mark.long)])
+def test_each_example_of_the_interface_runs_as_the_first_page_says(site, every):
+    examples = []
+    for path in sorted((site / "interface/planarimpact").rglob("*.html")):
+        module = ".".join(path.relative_to(site / "interface").with_suffix("").parts)
+        page = path.read_text(encoding="utf-8")
+        for shown in re.findall("<pre>(.*?)</pre>", page, flags=re.S):
+            text = html.unescape(re.sub("<[^>]+>", "", shown))
+            if text.startswith(">>> "):
+                examples.append((module, text))
+    assert len(examples) > 100
+    runner = doctest.DocTestRunner()
+    for module, text in examples[::every]:
+        text = f">>> import numpy as np\n>>> from {module} import *\n{text}"
+        runner.run(doctest.DocTestParser().get_doctest(text, {}, module, module, 0))
+    assert runner.failures == 0
 
 
 @pytest.mark.parametrize("name", ["report.html", "ledger.html", "note.html", "sources.html"])
@@ -220,8 +245,20 @@ def test_axe_finds_nothing_and_no_page_is_wider_than_its_window(figures, look, n
     assert look(figures / name) == NONE
 
 
-def test_axe_finds_nothing_of_ours_on_the_interface(interface, look):
-    assert look(interface.parent / INTERFACE, NOT_OURS) == NONE
+def test_axe_finds_nothing_of_ours_on_the_interface(site, look):
+    assert look(site / INTERFACE, NOT_OURS) == NONE
+
+
+def test_links_unfold_what_they_lead_to(figures, tab):
+    for page, names in (
+        ("report.html", ("fig6-rebound", "fig2-solved")),
+        ("sources.html", ("config-fig5", "config-rod")),
+    ):
+        tab.open(f"{(figures / page).as_uri()}#{names[0]}")
+        for name in names:
+            tab.evaluate(f"location.hash = '{name}'; new Promise((go) => setTimeout(go, 50))")
+            assert tab.evaluate(f"document.getElementById('{name}').closest('details').open")
+    assert not tab.problems
 
 
 FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>
