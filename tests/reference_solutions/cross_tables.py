@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tests.reference_solutions.table_files import Table, write
+from tests.reference_solutions.table_files import table, write
 
 ROOT = Path(__file__).parents[2]
 # Standard deviation of what lies evenly between two bounds, over half their distance.
@@ -69,8 +69,7 @@ MARKERS = {
 
 def tables():
     """Every table by its name."""
-    impacts = range(1, 1 + len(_markers()))
-    return {"impacts": Table(HEADER, [functools.partial(_row, impact) for impact in impacts])}
+    return {"impacts": table(HEADER, _row, [(impact,) for impact in range(1, 1 + len(_markers()))])}
 
 
 def quantities(impact):

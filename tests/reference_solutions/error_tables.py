@@ -18,7 +18,7 @@ import numpy as np
 
 from tests.reference_solutions import exact_tables, inelastic_tables, table_files, viscous_precision
 from tests.reference_solutions.exact_tables import BETA, ZETA2
-from tests.reference_solutions.table_files import Table
+from tests.reference_solutions.table_files import table
 
 DATA = Path(__file__).parents[2] / "data"
 LOSSES = ("viscous", "plastic")
@@ -64,17 +64,14 @@ def tables():
 
 
 def _rows(models, e, exact, ending):
-    return [
-        functools.partial(_row, f"{name}, e = {e:g}{ending}", model, e, exact)
-        for name, model in models.items()
-    ]
+    return [(f"{name}, e = {e:g}{ending}", model, e, exact) for name, model in models.items()]
 
 
 def _table(rows):
     columns = [
         f"{kind}_{name} [{unit}]" for name, unit in FIELDS.items() for kind in ("rms", "max")
     ]
-    return Table(["curve", "restitution [1]", *columns], rows)
+    return table(["curve", "restitution [1]", *columns], _row, rows)
 
 
 def _row(curve, model, e, exact):

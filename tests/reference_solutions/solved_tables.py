@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from mpmath import mp
 
-from tests.reference_solutions import inelastic_contact
+from tests.reference_solutions import inelastic_contact, table_files
 
 ROOT = Path(__file__).parents[2]
 SCENES = ("shot_peening", "billiard_cushion", "superball")
@@ -237,13 +237,14 @@ def _text(value):
     return value if isinstance(value, str) else mp.nstr(value, DIGITS)
 
 
-def main(data):
-    for name in SCENES:
-        header, rows = scene_table(name)
-        path = Path(data) / f"scenes_solved/{name}.csv"
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            csv.writer(file, lineterminator="\n").writerows([header, *rows])
+def tables():
+    """Every scene by its name."""
+    solved = {name: scene_table(name) for name in SCENES}
+    return {
+        name: table_files.table(header, lambda *cells: cells, rows)
+        for name, (header, rows) in solved.items()
+    }
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    table_files.write(Path(sys.argv[1]) / "scenes_solved", tables())

@@ -1,6 +1,7 @@
 """Tables of reference values as files: what the generators of data/ share."""
 
 import csv
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -26,6 +27,16 @@ class Table(NamedTuple):
         """The texts of one row; numbers have 20 digits, float64 those that identify it."""
         with mp.workdps(DIGITS):
             return [_text(cell) for cell in self.rows[row]()]
+
+
+def table(header, function, places):
+    """The table whose rows are what a function returns at each of some places, its arguments."""
+    return Table(header, [partial(function, *place) for place in places])
+
+
+def digits(number, places):
+    """A number rounded to decimal places, without -0."""
+    return round(float(number), places) + 0.0
 
 
 def _text(cell):
