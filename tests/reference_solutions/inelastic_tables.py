@@ -3,11 +3,9 @@
 python -m tests.reference_solutions.inelastic_tables data/inelastic_models [table ...]
 """
 
-import csv
 import functools
 import sys
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import yaml
@@ -26,9 +24,8 @@ from tests.reference_solutions.exact_tables import (
     shot_columns,
 )
 from tests.reference_solutions.high_precision import rebound as exact_rebound
-from tests.reference_solutions.table_files import digits, table, write
+from tests.reference_solutions.table_files import DATA, digits, read, table, write
 
-ROOT = Path(__file__).parents[2]
 BETA = 3.5
 MODELS = [
     "continuum.viscous",
@@ -325,10 +322,8 @@ def _rubber_impacts():
     that of the spin: friction gives the contact point 7/2 of the one and 7/5 of the other.
     """
     friction = _parameters("cross2014")["friction"]["value"]
-    with open(ROOT / "data/cross2014/impacts.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
     found = []
-    for row in rows:
+    for row in read("cross2014/impacts"):
         number = {key.partition(" [")[0]: cell for key, cell in row.items()}
         before, e, e_t, ratio, spin = (
             float(number[key])
@@ -362,13 +357,12 @@ def _rubber_stated():
 
 @functools.cache
 def _pairs():
-    with open(ROOT / "data/cornell1999/pairs.csv", newline="", encoding="utf-8") as file:
-        return {row["pair"]: row for row in csv.DictReader(file)}
+    return {row["pair"]: row for row in read("cornell1999/pairs")}
 
 
 @functools.cache
 def _parameters(source):
-    text = (ROOT / "data" / source / "source.yaml").read_text(encoding="utf-8")
+    text = (DATA / source / "source.yaml").read_text(encoding="utf-8")
     return yaml.safe_load(text)["parameters"]
 
 

@@ -8,7 +8,6 @@ velocity of a contact point, what an impulse there does to velocity and spin, th
 that is lost. Nothing is taken from the package.
 """
 
-import csv
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -17,7 +16,6 @@ from mpmath import mp
 
 from tests.reference_solutions import inelastic_contact, table_files
 
-ROOT = Path(__file__).parents[2]
 SCENES = ("shot_peening", "billiard_cushion", "superball")
 WORKING_DIGITS, DIGITS = 50, 14
 # Of the second code; solved with half of each too, and extrapolated.
@@ -32,8 +30,7 @@ UNITS = {"velocity": "m/s", "spin": "rad/s"}
 
 def scene_table(name, step=1):
     """Every `step`-th impact of a scene: header, and rows of text."""
-    with open(ROOT / f"data/scenes/{name}.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))[::step]
+    rows = table_files.read(f"scenes/{name}")[::step]
     with mp.workdps(WORKING_DIGITS):
         impacts = [_Impact({key.split(" [")[0]: text for key, text in row.items()}) for row in rows]
         groups = [impact.groups for impact in impacts]

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from mpmath import mp
 
+DATA = Path(__file__).parents[2] / "data"
 DIGITS = 50  # carried
 
 
@@ -56,6 +57,12 @@ def write(folder, tables):
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(table.header)
             writer.writerows(table.cells(row) for row in range(len(table.rows)))
+
+
+def read(name):
+    """Rows of a file of data/ by its name without an ending, each with its cells by column."""
+    with open(DATA / f"{name}.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
 
 
 def differing(path, table, every=1, last_place=0.0):
