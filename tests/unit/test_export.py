@@ -399,68 +399,53 @@ def collisions(folder):
     return before, named(FIELDS, run(folder, "js", "fine", "collide", rows)[0]), kind
 
 
-def test_momentum_angular_momentum_and_energy(collisions):
+def test_collisions_keep_the_laws_of_mechanics(collisions):
     """Also below e = 0.3, where the regime is UNRESOLVED; and every kind of regime is there."""
     before, after, kind = collisions
     regimes = np.bincount(after["regime"].astype(int), minlength=8)
     assert regimes[[0, 2, 3, 4, 6, 7]].min() > COUNT // 200
-    finite, n = np.isfinite(before["other_mass"]), before["normal"]
+    n, impulse, hit = before["normal"], after["impulse"], after["regime"] != Regime.NO_IMPACT
+    # Momentum: what one body gets the other one loses, and both are turned by the same friction.
     speed = 5 + np.abs(after["velocity"]).max(axis=1) + np.abs(after["other_velocity"]).max(axis=1)
-    gained, energy = 0.0, 0.0
     for who, sign in (("", 1), ("other_", -1)):
-        mass = np.where(np.isfinite(before[who + "mass"]), before[who + "mass"], 0.0)
-        inertia = mass * np.where(mass > 0, before[who + "gyration"], 0.0) ** 2
-        radius = before[who + "radius"]
-        change, turn = (after[who + k] - before[who + k] for k in ("velocity", "spin"))
-        lost = sign * after["impulse"] - mass[:, None] * change
-        assert (np.abs(lost).max(axis=1) < 1e-14 * mass * speed)[finite | (sign == 1)].all()
-        # Both are turned by the same impulse, from the opposite side.
-        torque = np.cross((-radius)[:, None] * n, after["impulse"]) - inertia[:, None] * turn
-        within = 1e-14 * mass * speed * radius
-        assert (np.abs(torque).max(axis=1) <= within)[finite | (sign == 1)].all()
-        means = (after[who + k] + before[who + k] for k in ("velocity", "spin"))
-        mean, mean_turn = (np.where((mass > 0)[:, None], value, 0.0) for value in means)
-        gained = gained + (mass * dot(change, mean) + inertia * dot(turn, mean_turn)) / 2
-        squares = dot(before[who + "velocity"], before[who + "velocity"])
-        squares = mass * squares + inertia * dot(before[who + "spin"], before[who + "spin"])
-        energy = energy + squares / 2
-    assert (gained <= 1e-14 * energy)[finite].all()
-    conserved = finite & (kind == 5)  # e = 1 without friction
-    assert (np.abs(gained) <= 1e-14 * energy)[conserved].all()
-    # Walls stay as they are.
-    for name in ("other_velocity", "other_spin"):
-        np.testing.assert_array_equal(after[name][~finite], before[name][~finite])
-
-
-def test_impulses_keep_coulombs_limit_and_bodies_leave_by_restitution(collisions):
-    before, after, kind = collisions
-    n, hit = before["normal"], after["regime"] != Regime.NO_IMPACT
-    along = dot(after["impulse"], n)
-    sideways = after["impulse"] - along[:, None] * n
+        change, turn = (after[who + name] - before[who + name] for name in ("velocity", "spin"))
+        mass, radius = before[who + "mass"], before[who + "radius"]
+        heavy = np.isinf(mass)
+        assert not change[heavy].any() and not turn[heavy].any()
+        mass = np.where(heavy, 0.0, mass)
+        inertia = mass * np.where(heavy, 0.0, before[who + "gyration"]) ** 2
+        lost = sign * impulse - mass[:, None] * change
+        left = np.cross(-radius[:, None] * n, impulse) - inertia[:, None] * turn
+        assert (np.abs(lost).max(axis=1) < 1e-14 * mass * speed)[~heavy].all()
+        assert (np.abs(left).max(axis=1) < 1e-14 * mass * speed * radius)[~heavy].all()
+    # Coulomb's limit, restitution, and energy: the impulse works against the mean of motion.
+    along = dot(impulse, n)
+    sideways = impulse - along[:, None] * n
     size = np.sqrt(dot(sideways, sideways))
     assert (size[hit] <= (before["friction"] * along * (1 + 1e-12) + 1e-14 * along)[hit]).all()
-
-    def contact(state):
-        spins = [before[w + "radius"][:, None] * state[w + "spin"] for w in ("", "other_")]
-        return state["velocity"] - state["other_velocity"] - np.cross(spins[0] + spins[1], n)
-
-    first, last = contact(before), contact(after)
-    before_v2, after_v2 = -dot(first, n), dot(last, n)
+    first, last = (
+        state["velocity"]
+        - state["other_velocity"]
+        - np.cross(
+            sum(before[w + "radius"][:, None] * state[w + "spin"] for w in ("", "other_")), n
+        )
+        for state in (before, after)
+    )
     scale = 1 + np.abs(first).max(axis=1) + np.abs(last).max(axis=1)
-    gap = np.abs(after_v2 - after["restitution"] * before_v2)
+    gap = np.abs(dot(last, n) + after["restitution"] * dot(first, n))
     assert (gap[hit] < 1e-12 * scale[hit]).all()
-    assert (before_v2[~hit] <= 1e-15).all() and (before_v2[hit] > 0).all()
-    # At walls, which may move, the impulse works against motion.
-    wall = np.isinf(before["other_mass"])
-    work, first_work = dot(after["impulse"], first + last), dot(after["impulse"], first)
-    assert (work <= 1e-14 * np.abs(first_work))[wall].all()
-    # Without friction spins stay, and head-on; bodies that do not approach stay as they are.
-    apart = ~hit
-    assert apart[kind == 10].all()
-    head_on = (kind == 9) & hit
-    assert (after["regime"][head_on] == Regime.STICK).all() and not after["incidence"][
-        head_on
-    ].any()
+    assert (dot(first, n)[~hit] >= -1e-15).all() and (dot(first, n)[hit] < 0).all()
+    gained = dot(impulse, first + last)
+    bound = 1e-13 * scale * np.sqrt(dot(impulse, impulse))
+    assert (gained <= bound).all() and (np.abs(gained) <= bound)[kind == 5].all()
+
+
+def test_what_does_not_happen_leaves_no_number(collisions):
+    before, after, kind = collisions
+    apart = after["regime"] == Regime.NO_IMPACT
+    head_on = (kind == 9) & ~apart
+    assert apart[kind == 10].all() and not after["incidence"][head_on].any()
+    assert (after["regime"][head_on] == Regime.STICK).all()
     for name in ("spin", "other_spin"):
         rows = apart | head_on | (kind == 4) | (kind == 5)
         np.testing.assert_array_equal(after[name][rows], before[name][rows])
@@ -471,8 +456,7 @@ def test_impulses_keep_coulombs_limit_and_bodies_leave_by_restitution(collisions
         assert np.isnan(after[name][apart]).all()
     below = (kind == 6) & (after["regime"] == Regime.UNRESOLVED)
     assert below.any() and np.isfinite(after["velocity"][below]).all()
-    for name in ("error_bound", "model_form"):
-        assert np.isnan(after[name][below]).all()
+    assert np.isnan([after["error_bound"][below], after["model_form"][below]]).all()
 
 
 def test_python_has_the_same_collisions(collisions):
