@@ -40,21 +40,23 @@ def impacts(loss):
     names = "restitution", "poisson_ratio", "mass_ratio"
     limits = np.array([write_explorer.LIMITS[name][:2] for name in names], float)
     limits[0, 0] = continuum.LEAST_RESTITUTION
-    e, nu, beta = rng.uniform(*limits.T, (12, 3)).T
-    zeta2 = (2 - nu) / (2 * (1 - nu))
-    x = rng.uniform(0, 1.2, 12) * continuum.slip_throughout_limit(beta, zeta2, e, loss=loss)
-    rows = np.transpose([x, beta, zeta2, e]).tolist()
-    for zeta2 in (1.0, 1.5):  # nu = 0 and 0.5
-        for beta in (1.0, zeta2, 10.0):
-            for e in (continuum.LEAST_RESTITUTION, 1 - 1e-9):
-                limit = continuum.slip_throughout_limit(beta, zeta2, e, loss=loss)
-                rows += [(x, beta, zeta2, e) for x in (zeta2, 0.999 * limit, limit)]
+    e, nu, beta = rng.uniform(*limits.T, (8, 3)).T
+    inside = np.transpose([beta, (2 - nu) / (2 * (1 - nu)), e])
+    # The ends of the box, and m2/m1 = zeta^2.
+    least, most = continuum.LEAST_RESTITUTION, 1 - 1e-9
+    ends = [(beta, zeta2, most) for zeta2 in (1.0, 1.5) for beta in (1.0, zeta2, 10.0)]
+    ends += [(10.0, 1.0, least), (1.0, 1.5, least)]
+    groups = np.concatenate([inside, ends])
+    limit = continuum.slip_throughout_limit(*groups.T, loss=loss)
+    edges = np.concatenate([groups[:, 1], 0.999 * limit, limit])
+    rows = np.column_stack([edges, np.tile(groups, (3, 1))]).tolist()
+    rows += np.column_stack([rng.random(len(inside)) * limit[: len(inside)], inside]).tolist()
     rows += [
         (12.654, 10.0, 1.4511, 0.1),
         (1.4, 8.9585, 1.1089, 0.1),
         (1.3707, 9.572, 1.439, 0.8634),
     ]
-    return [tuple(map(float, row)) for row in rows]
+    return [tuple(row) for row in rows]
 
 
 @pytest.mark.parametrize("loss", continuum.LOSSES)
