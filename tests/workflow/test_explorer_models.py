@@ -40,21 +40,23 @@ def impacts(loss):
     names = "restitution", "poisson_ratio", "mass_ratio"
     limits = np.array([write_explorer.LIMITS[name][:2] for name in names], float)
     limits[0, 0] = continuum.LEAST_RESTITUTION
-    e, nu, beta = rng.uniform(*limits.T, (30, 3)).T
-    zeta2 = (2 - nu) / (2 * (1 - nu))
-    x = rng.uniform(0, 1.2, 30) * continuum.slip_throughout_limit(beta, zeta2, e, loss=loss)
-    rows = np.transpose([x, beta, zeta2, e]).tolist()
-    for zeta2 in (1.0, 1.5):  # nu = 0 and 0.5
-        for beta in (1.0, zeta2, 10.0):
-            for e in (continuum.LEAST_RESTITUTION, 1 - 1e-9, 1.0):
-                limit = continuum.slip_throughout_limit(beta, zeta2, e, loss=loss)
-                rows += [(x, beta, zeta2, e) for x in (zeta2, 0.999 * limit, limit)]
+    e, nu, beta = rng.uniform(*limits.T, (8, 3)).T
+    inside = np.transpose([beta, (2 - nu) / (2 * (1 - nu)), e])
+    # The ends of the box, and m2/m1 = zeta^2.
+    least, most = continuum.LEAST_RESTITUTION, 1 - 1e-9
+    ends = [(beta, zeta2, most) for zeta2 in (1.0, 1.5) for beta in (1.0, zeta2, 10.0)]
+    ends += [(10.0, 1.0, least), (1.0, 1.5, least)]
+    groups = np.concatenate([inside, ends])
+    limit = continuum.slip_throughout_limit(*groups.T, loss=loss)
+    edges = np.concatenate([groups[:, 1], 0.999 * limit, limit])
+    rows = np.column_stack([edges, np.tile(groups, (3, 1))]).tolist()
+    rows += np.column_stack([rng.random(len(inside)) * limit[: len(inside)], inside]).tolist()
     rows += [
         (12.654, 10.0, 1.4511, 0.1),
         (1.4, 8.9585, 1.1089, 0.1),
         (1.3707, 9.572, 1.439, 0.8634),
     ]
-    return [tuple(map(float, row)) for row in rows]
+    return [tuple(row) for row in rows]
 
 
 @pytest.mark.parametrize("loss", continuum.LOSSES)
@@ -96,15 +98,10 @@ def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
     assert np.mean(np.abs(stick - wanted)[1:-1] < 0.05) > 0.97
 
 
-@pytest.mark.parametrize("style", ["lumped", "elastic", "viscous", "plastic"])
-def test_bands_begin_where_the_package_slips_throughout(style, scripts):
-    e = 1.0 if style == "elastic" else 0.5
-    if style == "lumped":
-        wanted = lumped.slip_throughout_limit(*SOLID, e)
-    else:
-        loss = None if style == "elastic" else style
-        wanted = continuum.slip_throughout_limit(*SOLID, e, loss=loss)
-    assert abs(scripts.evaluate(f"{impact(style, 2.0, e)}.limit") - wanted) < 0.01
+@pytest.mark.parametrize("loss", continuum.LOSSES)
+def test_bands_begin_where_the_package_slips_throughout(loss, scripts):
+    wanted = continuum.slip_throughout_limit(*SOLID, 0.5, loss=loss)
+    assert abs(scripts.evaluate(f"{impact(loss, 2.0, 0.5)}.limit") - wanted) < 0.01
 
 
 # ---- curves, as the charts draw them
@@ -145,7 +142,7 @@ def test_curves_against_incidence_are_those_of_the_package(view, scripts):
     drawn = f"({CHARTS})('incidence', {impact('lumped', 2.0, e)}, '{view}', {styles}, 13)"
     markup = scripts.evaluate(drawn)
     for style in styles:
-        every = 1 if style in ("lumped", "rigid") else 4
+        every = 1 if style in ("lumped", "rigid") else 8
         place, values = (column[::every] for column in curve(markup, f"curve {style}"))
         place = np.maximum(place, 0)
         x = place if view == "velocity" else np.tan(np.radians(place)) / mu
@@ -184,15 +181,11 @@ def so_far(found, rate):
     return np.concatenate([[0], np.cumsum(pieces)])
 
 
-def test_curves_in_time_are_those_of_the_package(rubber):
-    _, found, evaluate = rubber
+def test_curves_and_phases_in_time_are_those_of_the_package(rubber):
+    e, found, evaluate = rubber
     for chart, style in (("forces", "normal"), ("forces", "friction"), ("velocity", "velocity")):
         time, values = curve(evaluate(f"({CHARTS})('{chart}', impact)"), style)
         assert_near(values, np.interp(time, found.time, getattr(found, style)))
-
-
-def test_phases_of_stick_and_slip_follow_each_other_as_in_the_package(rubber):
-    e, found, evaluate = rubber
     starts = [event.time for event in found.events if event.kind in ("stick", "slip")]
     phases = evaluate("impact.phases.map((one) => [one.start, one.sticks ? 0 : one.side])")
     assert np.abs(np.array(phases)[:, 0] - starts).max() < 1e-9
@@ -265,13 +258,12 @@ PATCH = """(style, impact, time) => {
   const row = models.at(impact.contact, time);
   const motion = style === "lumped" ? null : continuum.normal(impact.e, style);
   const zones = patch.show(style, row, 1, motion);
-  return [zones.map(({ slip, outer }) => [slip, outer]), patch.words(zones),
-    drawn[`patch-${style} .stress`].d];
+  return [zones.map(({ slip, outer }) => [slip, outer]), patch.words(zones)];
 }"""
 
 
 def patch_at(scripts, style, x, time):
-    """Zones of the patch, from outside, as [slip, radius]; its words; its arrows."""
+    """Zones of the patch, from outside, as [slip, radius]; and its words."""
     return scripts.evaluate(f"({PATCH})('{style}', {impact(style, x, 1.0)}, {time})")
 
 
@@ -283,23 +275,13 @@ def test_the_middle_sticks_and_the_edge_slips(time, scripts):
         np.interp(time, theirs.time, column)
         for column in (theirs.stick_radius, theirs.contact_radius)
     )
-    (edge, middle), words, _ = patch_at(scripts, "elastic", x, time)
+    (edge, middle), words = patch_at(scripts, "elastic", x, time)
     assert words == "middle sticks, edge slips"
     assert edge[0] != 0 and middle[0] == 0
     assert abs(edge[1] - radius) < 0.05 and abs(middle[1] - stick) < 0.05
     # The lumped model has one point.
-    zones, words, _ = patch_at(scripts, "lumped", x, time)
+    zones, words = patch_at(scripts, "lumped", x, time)
     assert len(zones) == 1 and words == f"all of it {'slips' if zones[0][0] else 'sticks'}"
-
-
-@pytest.mark.parametrize("style", ["lumped", "elastic"])
-def test_arrows_show_friction_on_the_ball(style, scripts):
-    _, _, marks = patch_at(scripts, style, 14.0, 1.0)  # slips throughout
-    x, y, neck = np.array(re.findall(r"M(\S+?),(\S+?)H(\S+?)M", marks), float).T
-    assert (neck <= x).all() and (neck < x).sum() > 60, "it holds the ball back"
-    # Each is as long as the pressure there is large: largest in the middle.
-    long, far = x - neck, np.hypot((x + neck) / 2, y)
-    assert long[far < 30].min() > long[far > 70].max()
 
 
 @pytest.mark.parametrize(("e", "style"), [(1, "elastic"), (0.6, "viscous"), (0.6, "plastic")])
@@ -311,7 +293,7 @@ def test_the_stress_over_the_patch_is_the_friction(e, style, scripts):
         f"(() => {{ const {{ stress }} = {private}, {{ contact, e }} = {impact(style, x, e)};"
         " const motion = continuum.normal(e, contact.style);"
         " return [0.3, 0.7, 1, 1.2, 1.5].map((time) => { const row = models.at(contact, time);"
-        " const edge = Math.sqrt(row.limit.square), n = 4000;"
+        " const edge = Math.sqrt(row.limit.square), n = 1000;"
         " const radii = Array.from({ length: n }, (_, i) => ((i + 0.5) / n) * edge);"
         " const values = stress(row.density, motion.radius / motion.springs, edge, radii, 1);"
         " const sum = radii.reduce((sum, r, i) => sum + r * values[i], 0) * edge / n;"
@@ -361,33 +343,20 @@ def test_it_says_which_models_disagree(scripts):
     assert [one["style"] for one in ours] == ["lumped", "rigid"], "the continuum answers from 0.1"
 
 
-@pytest.mark.parametrize(
-    ("style", "x", "e", "words"),
-    [
-        ("lumped", 0, 1, "The paper’s lumped model: the contact point comes straight, and"),
-        ("lumped", 56.7, 1, "The paper’s lumped model: the contact slips forwards throughout. The"),
-        (
-            "elastic",
-            2.47,
-            1,
-            "Continuum, elastic: the contact slips forwards first, then sticks in the middle, then"
-            " slips backwards. The contact point leaves backwards, with",
-        ),
-        (
-            "lumped",
-            0.7,
-            0,
-            "The paper’s lumped model: the contact sticks throughout. The contact point does not",
-        ),
-    ],
-)
-def test_it_says_what_happens(style, x, e, words, scripts):
-    assert scripts.evaluate(f"words.sentence({impact(style, x, e)})").startswith(words)
+def test_it_says_what_happens(scripts):
+    for style, x, e, said in (
+        ("lumped", 0, 1, "comes straight"),
+        ("lumped", 56.7, 1, "slips forwards throughout"),
+        ("lumped", 0.7, 0, "sticks throughout. The contact point does not bounce off"),
+        ("elastic", 2.47, 1, "slips forwards first, then sticks in the middle, then slips back"),
+        ("elastic", 2.47, 1, "The contact point leaves backwards, with"),
+    ):
+        assert said in scripts.evaluate(f"words.sentence({impact(style, x, e)})")
 
 
 def test_numbers_in_words_are_those_of_the_package():
     text = (node.FOLDER / "explorer.html").read_text(encoding="utf-8")
-    x = np.linspace(0, 7, 71)
+    x = np.linspace(0, 7, 36)
     for e, losses, said in ((1.0, ["elastic"], 0.2), (0.8, continuum.LOSSES, (0.7, 0.9))):
         paper = packaged("lumped", x, *SOLID, e).velocity
         for loss in losses:
