@@ -48,8 +48,7 @@ WINDOWS = {
 
 @functools.cache
 def parsed(path):
-    """A page, and whether it is strict: that of pdoc is not."""
-    return Page(path.read_text(encoding="utf-8"), strict="interface" not in path.parts)
+    return Page(path.read_text(encoding="utf-8"))
 
 
 def wrong_state(controls, state):
