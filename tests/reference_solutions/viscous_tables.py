@@ -8,6 +8,7 @@ import random
 import sys
 from functools import partial
 
+import numpy as np
 from mpmath import mp
 
 from tests.reference_solutions import table_files, viscous_precision
@@ -27,6 +28,8 @@ HEADER = [
     "tangential_strain_left [mu^2 m2 v2(0)^2]",
     "phases [1]",
 ]
+# What `lumped.rebound` promises in this box, beside `scales`.
+PROMISED = 1e-12
 # Impacts elsewhere, and at or beside a threshold or a switch of course.
 ELSEWHERE, BESIDE, SWITCHES = 300, 400, 8
 
@@ -55,6 +58,13 @@ def row(point):
     outputs = [getattr(answer, name) for name in OUTPUTS]
     energies = answer.tangential_viscous, answer.tangential_strain
     return [*point, *outputs, *energies, float(len(answer.events) - 1)]
+
+
+def scales(x, beta, _, e):
+    """What errors of the outputs count beside; shape (3, ...)."""
+    work = np.minimum(np.divide(x, 2 * beta), 1 + e) * x
+    size = np.maximum(np.maximum(x, beta), 1)
+    return np.stack([size, np.ones_like(size), np.maximum(work, 1e-300)])
 
 
 def course(point):

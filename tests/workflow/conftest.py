@@ -11,7 +11,7 @@ from stronge1994 import plan, reference_data
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
-from tests.workflow import browser
+from tests.workflow import browser, node
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, Project, copy_of
 
 collect_ignore = ["toy"]  # a workflow for test_proof.py
@@ -83,6 +83,13 @@ def explorer(tmp_path_factory, answers):
     text = write_explorer.page(plan.settings_of_explorer(config), sources, answers)
     path.write_text(text, encoding="utf-8")
     return path
+
+
+@pytest.fixture(scope="session")
+def scripts():
+    """The scripts of the explorer in node, which needs no browser. Do not change their state."""
+    with node.scripts() as found:
+        yield found
 
 
 @pytest.fixture(scope="module")
