@@ -4,7 +4,6 @@ import base64
 import html
 import re
 from collections import Counter
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
@@ -20,45 +19,10 @@ from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
 from stronge1994.verdict_tables import verdict_table
+from tests.workflow.page import Page
 from tests.workflow.project import ROOT
 
 CONFIG = configuration.load(ROOT)
-VOID = {"meta", "img", "br", "input", "link", "hr"}
-
-
-class Page(HTMLParser):
-    """Anchors, links, resources and words of a page.
-
-    Refuses tags that do not balance, headings that skip a level, pictures without words.
-    """
-
-    def __init__(self, text):
-        super().__init__()
-        self.ids, self.links, self.resources, self.words = [], [], [], []
-        self.open, self.level = [], 0
-        self.feed(text)
-        assert not self.open, self.open
-
-    def handle_starttag(self, tag, attributes):
-        found = dict(attributes)
-        self.ids += [found["id"]] if "id" in found else []
-        self.links += [found["href"]] if tag == "a" else []
-        self.resources += [found[key] for key in ("src", "srcset", "data") if key in found]
-        self.resources += [found["href"]] if tag == "link" else []
-        if tag == "img":
-            assert len(found["alt"]) > 10
-            assert found["alt"].count("(") == found["alt"].count(")"), found["alt"]
-        if re.fullmatch("h[1-6]", tag):
-            assert int(tag[1]) <= self.level + 1, self.getpos()
-            self.level = int(tag[1])
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag, (tag, self.getpos())
-
-    def handle_data(self, data):
-        self.words.append(data)
 
 
 @pytest.fixture(scope="module")
@@ -78,14 +42,10 @@ def numbers(first_run):
     return key_numbers.read(first_run[0] / "results/key_numbers.csv")
 
 
-def in_words(page):
-    return " ".join(" ".join(Page(page).words).split())
-
-
 def test_each_is_one_file_that_needs_nothing_else(pages):
     for name, pictures in (("report", 17), ("sources", 0), ("note", 4)):
         text = pages(name)
-        page = Page(text)
+        page = Page(text, strict=True)
         assert len(page.resources) >= pictures
         assert all(r.startswith("data:image/svg+xml;base64,") for r in page.resources)
         outside = [link for link in page.links if ":" in link]
@@ -99,7 +59,7 @@ def test_each_is_one_file_that_needs_nothing_else(pages):
 def test_the_first_words_say_how_it_went_and_what_was_found(pages, tables, numbers):
     """Numbers are those of the tables, and each error that changes a result is named."""
     head = pages("report").split('<h2 id="verdicts">')[0]
-    first = in_words(head + "</main></div></body></html>")
+    first = Page(head).text
     assert first.index("PASSED") < first.rindex("What we found")
     assert "FAILED" not in pages("report")
     ledger = tables("ledger")
@@ -111,13 +71,12 @@ def test_the_first_words_say_how_it_went_and_what_was_found(pages, tables, numbe
 
 
 def test_every_verdict_figure_and_source_is_there(pages, tables):
-    page, stated_in = Page(pages("report")), in_words(pages("sources"))
-    provenance = Page(pages("sources"))
+    page, provenance = Page(pages("report")), Page(pages("sources"))
+    stated_in = provenance.text
     verdicts = tables("verdicts")
     assert {row["comparison"] for row in verdicts} <= set(page.ids)
     counts = Counter(row["verdict"] for row in verdicts if row["verdict"] != "as before")
-    text = in_words(pages("report"))
-    assert all(f"{verdict} {count} " in text for verdict, count in counts.items())
+    assert all(f"{verdict} {count} " in page.text for verdict, count in counts.items())
     for figure in CONFIG["figures"]:
         assert figure in page.ids and f"config-{figure}" in provenance.ids
         assert f"tables/curves/{figure}.csv" in page.links
@@ -297,7 +256,7 @@ def doctored(*lapsed):
 
 def test_a_failed_run_looks_like_one():
     page = doctored()
-    text = in_words(page)
+    text = Page(page).text
     first = "FAILED 2 comparisons fail. Today, commit abc Fig. 6, rebound is wrong: max 9"
     assert text.index(first) < text.index("Which figures agree, with what")
     assert '<li><a href="#fig6-rebound">' in page
@@ -314,7 +273,7 @@ def test_a_failed_run_looks_like_one():
 def test_a_run_with_a_lapsed_entry_looks_like_one():
     page = doctored({"entry": "eq-1", "kind": "equation", "verdict": "wrong", "holds": "no"})
     assert "<title>Failed:" in page and "PASSED" not in page and "comparisons fail" not in page
-    words = in_words(page)
+    words = Page(page).text
     assert "1 of 1 verdicts on the paper no longer hold: Eq. 1 ." in words
     assert 'href="ledger.html#eq-1"' in page
 
