@@ -74,20 +74,3 @@ def test_figures_of_the_paper_come_first_and_scenes_are_one_row():
     table = figure_table.of_run(rows)
     assert [found.figure for found in table] == ["fig2", "fig9", "fig10", "yielding", "scenes"]
     assert table[-1].solved[0].rows == ["scene_a-rebound", "scene_b-rebound"]
-
-
-def test_the_text_is_at_most_80_columns_wide():
-    long = "a_source_with_a_name_that_is_longer_than_its_column/rebound"
-    note = "ledger: an-entry-with-a-name-that-is-longer-than-its-column"
-    rows = [
-        row(question, verdict, figure=figure, reference=long, note=note)
-        for figure in ("fig6", "rubber_sphere")
-        for question, verdict in (
-            (SOLVED, "explained difference"),
-            (PRINTED, "unexplained difference"),
-            (OTHERS, "diverges"),
-            (OTHERS, "awaited"),
-        )
-    ]
-    lines = figure_table.text(figure_table.of_run(rows)).splitlines()
-    assert max(map(len, lines)) <= 80 and len(lines) > 4

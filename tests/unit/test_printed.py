@@ -5,13 +5,12 @@ import re
 import numpy as np
 import pytest
 
-from planarimpact import lumped, rigid
-from planarimpact.ground.checks import InputError
-from stronge1994 import printed
+from planarimpact import continuum, lumped, rigid
 from stronge1994.figures.fig5 import curves as fig5
 from stronge1994.figures.fig6 import curves as fig6
 from stronge1994.figures.fig7 import curves as fig7
 from stronge1994.figures.fig9 import curves as fig9
+from stronge1994.figures.shared.curves import beside
 from stronge1994.printed import dissipation, dynamics, impact, peak_force, slip
 
 BETA, ZETA2 = 3.5, 1.21
@@ -22,10 +21,9 @@ def test_every_number_has_its_function():
     numbers = {int(found[1]) for name in names if (found := re.match(r"eq_(\d+)", name))}
     assert numbers == set(range(1, 42))
     assert sum(name.startswith("table_1_") for name in vars(dynamics)) == 4
-    assert "no range is" in " ".join(printed.__doc__.split())
 
 
-@pytest.mark.parametrize("e", [0.6, 0.8, 1.0])
+@pytest.mark.parametrize("e", [0.6, 1.0])
 def test_velocity_is_exact_below_both_limits_and_above(e):
     limit = float(lumped.slip_throughout_limit(BETA, ZETA2, e))
     end = (1 + e) * BETA
@@ -51,19 +49,6 @@ def test_no_solution_between_the_limits(e):
     assert np.isnan(impact.rebound(x, BETA, ZETA2, e)).all()
 
 
-def test_the_kept_direction_costs_twice_the_impulse_left():
-    """Just below x = beta at e = 0.5 Eq. 25 with s = +1 is 2 e beta too high."""
-    x = BETA - 1e-6
-    velocity, _, _ = impact.rebound([x], BETA, ZETA2, 0.5)
-    excess = velocity[0] - lumped.rebound(x, BETA, ZETA2, 0.5).velocity
-    assert excess == pytest.approx(2 * 0.5 * BETA, abs=1e-2)
-
-
-def test_dissipation_as_printed_is_negative_at_small_incidence():
-    assert impact.rebound([0.5], BETA, ZETA2, 1.0)[2][0] < 0
-    assert lumped.rebound(0.5, BETA, ZETA2, 1.0).dissipation > 0.02
-
-
 def test_peaks_hold_up_to_beta_only():
     x = np.array([0.5, 1.2, 2.0, 3.49, 4.0, 5.0])
     _, peak, _ = impact.rebound(x, BETA, ZETA2, 1.0)
@@ -78,9 +63,8 @@ def test_peak_without_tangential_compliance_is_that_of_the_rigid_contact():
     np.testing.assert_allclose(peak_force.eq_34_friction(slope, mu, BETA), exact, rtol=1e-13)
 
 
-@pytest.mark.parametrize("cosine", [-2.0, 0.5])
-@pytest.mark.parametrize("sine", [-1.0, 0.0, 3.0])
-@pytest.mark.parametrize("end", [0.3, 2.0, 5.0])
+@pytest.mark.parametrize("sine", [-1.0, 3.0])
+@pytest.mark.parametrize(("cosine", "end"), [(-2.0, 0.3), (0.5, 2.0), (0.5, 5.0)])
 def test_the_largest_force_is_that_of_a_dense_line(cosine, sine, end):
     angle = np.linspace(0, end, 10_001)
     dense = np.abs(cosine * np.cos(angle) + sine * np.sin(angle)).max()
@@ -95,11 +79,6 @@ def test_mirror_image_and_inelastic_limit():
 
 def test_a_slow_tangential_oscillation_is_not_in_the_print():
     assert np.isnan(impact.rebound([0.5], 1.0, 2.0, 1.0)[0][0])
-
-
-def test_bad_groups_are_refused():
-    with pytest.raises(InputError, match="restitution = 1.5"):
-        impact.rebound([1.0], BETA, ZETA2, 1.5)
 
 
 CONTINUA = {"models": ["continuum.plastic"], "restitution": [0.5], "tolerance": 1e-2}
@@ -122,8 +101,15 @@ CURVES = {
 }  # fmt: skip
 
 
+@pytest.fixture
+def quick(monkeypatch):
+    """The lumped model in place of the continua, which the printed equations do not concern."""
+    monkeypatch.setattr(continuum, "rebound", lambda *groups, **_: lumped.rebound(*groups))
+    monkeypatch.setattr(beside, "rebound", lambda _, tolerance, *groups: lumped.rebound(*groups))
+
+
 @pytest.mark.parametrize("figure", CURVES, ids=lambda figure: figure.__name__.split(".")[-2])
-def test_as_printed_curves_are_added_on_request_and_change_no_other(figure):
+def test_as_printed_curves_are_added_on_request_and_change_no_other(figure, quick):
     settings = dict(mass_ratio=BETA, stiffness_ratio=ZETA2, samples=41, **CURVES[figure])
     plain = figure.curves(**settings)
     both = figure.curves(**settings, as_printed=True)

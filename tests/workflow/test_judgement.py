@@ -185,51 +185,53 @@ def report(first_run, expected, inventory, tmp_path, monkeypatch):
             settings,
         )
         problems = [row["problem"] for row in csv_tables.read_rows("results/problems.csv")]
-        return (tmp_path / "figures/report.html").read_text(encoding="utf-8"), problems
+        return Path("figures/report.html").read_text(encoding="utf-8"), problems
 
-    return written, tmp_path
-
-
-def test_the_report_of_a_good_run_has_no_problems(report):
-    page, problems = report[0]()
-    assert problems == [] and "<title>Passed" in page
+    return written
 
 
-VERDICTS = ",".join(verdict_table.COLUMNS)
+# Two ways to damage each table, None if it is missing, and what the report then says.
 DAMAGE = [
-    ("results/verdicts.csv", "", "results/verdicts.csv"),
-    (
-        "results/verdicts.csv",
-        ",".join(verdict_table.COLUMNS) + "\nfig5,only\n",
-        "verdicts.csv, line 2",
-    ),
-    ("results/ledger.csv", "", "results/ledger.csv"),
-    ("results/ledger.csv", ",".join(outcome.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
-    ("results/which_model.csv", "a,b\n1\n", "results/which_model.csv, line 2"),
-    ("results/residuals/fig5.csv", "comparison\nfig5-lumped-fem-initial-stick\n", "Fig. 5: "),
-    ("results/residuals/fig5.csv", None, "residuals/fig5.csv"),
-    ("figures/fig6.svg", None, "fig6.svg"),
+    {
+        "results/verdicts.csv": ("", "results/verdicts.csv"),
+        "results/ledger.csv": ("", "results/ledger.csv"),
+        "results/which_model.csv": ("a,b\n1\n", "results/which_model.csv, line 2"),
+        "figures/fig6.svg": (None, "fig6.svg"),
+    },
+    {
+        "results/verdicts.csv": (
+            ",".join(verdict_table.COLUMNS) + "\nfig5,only\n",
+            "verdicts.csv, line 2",
+        ),
+        "results/ledger.csv": (",".join(outcome.COLUMNS[1:]) + "\n", "column 'kind' is missing"),
+    },
+    {"results/residuals/fig5.csv": ("comparison\nfig5-lumped-fem-initial-stick\n", "Fig. 5: ")},
+    {"results/residuals/fig5.csv": (None, "residuals/fig5.csv")},
 ]
 
 
-@pytest.mark.parametrize(("path", "text", "words"), DAMAGE)
-def test_the_report_survives_a_damaged_table(report, path, text, words):
-    written, folder = report
-    if text is None:
-        (folder / path).unlink()
-    else:
-        (folder / path).write_text(text, encoding="utf-8")
-    page, problems = written()
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_the_report_survives_damaged_tables(report, damage):
+    for path, (text, _) in damage.items():
+        Path(path).unlink()
+        if text is not None:
+            Path(path).write_text(text, encoding="utf-8")
+    page, problems = report()
     assert "<title>Failed" in page and page.rstrip().endswith("</html>")
-    assert any(words in problem for problem in problems), problems
-    assert any(words in html.unescape(line) for line in page.splitlines() if "<li>" in line)
+    shown = [html.unescape(line) for line in page.splitlines() if "<li>" in line]
+    for _, words in damage.values():
+        assert any(words in problem for problem in problems), problems
+        assert any(words in line for line in shown), words
 
 
-def test_the_report_survives_itself(report, monkeypatch):
-    """A page that cannot be made is left to the error of its job."""
+def test_a_good_run_has_no_problems_and_a_page_that_cannot_be_made_is_left_alone(
+    report, monkeypatch
+):
+    """The error of its job names the page that is not made; Snakemake has removed the old one."""
+    page, problems = report()
+    assert problems == [] and "<title>Passed" in page
     monkeypatch.setattr(write_report.figure_table, "of_run", lambda _: 1 / 0)
-    written, folder = report
-    (folder / "figures/report.html").write_text("of an earlier run")
-    page, problems = written()
-    assert page == "of an earlier run"  # Snakemake has removed it
+    Path("figures/report.html").write_text("of an earlier run")
+    page, problems = report()
+    assert page == "of an earlier run"
     assert problems[-1].startswith("report: ZeroDivisionError")
