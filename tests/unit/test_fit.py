@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from planarimpact import InputError, bodies, fit
+from planarimpact.__main__ import main
 from planarimpact.fit import overlaps
 from planarimpact.models import timestep
 
@@ -274,6 +275,15 @@ def test_a_speed_is_refused_from_a_tenth_of_the_radius():
             allowed, fast = float(str(error).split()[8]), speed
     assert slow == pytest.approx(speed_to(0.1, material), rel=1e-8)
     assert 0.998 * slow < allowed <= slow
+
+
+def test_the_command_refuses_a_speed_before_it_fits(capsys, monkeypatch):
+    monkeypatch.setattr(fit, "fit", None)
+    numbers = "--friction .5 --young-modulus 50e6 --poisson-ratio .45 --radius .005 --density 1100"
+    given = "--law lammps-hertz-mindlin --restitution .6 --loss viscous --speed 1e5"
+    assert main(["fit", *given.split(), *numbers.split()]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("planarimpact: speed = 100000.0: allowed are speeds up to 5.694 m/s, ")
 
 
 # Most that velocities move where contact begins within a step, as `fit.fit` says.
