@@ -143,7 +143,15 @@ def executed(book, look=lambda cell: None):
             plt.close("all")
 
 
-@every_notebook
+# All are drawn by the run itself; the longest ones are looked at once more in `long` alone.
+@pytest.mark.parametrize(
+    "book",
+    [
+        pytest.param(name, marks=[pytest.mark.long] * (name != "why_a_superball_comes_back"))
+        for name in NAMES
+    ],
+    indirect=True,
+)
 def test_pictures_are_not_drawn_over_their_words_and_regimes(book, first_run, monkeypatch):
     monkeypatch.chdir(first_run[0] / "workflow/notebooks")
     wrong = {}
