@@ -171,16 +171,6 @@ def test_no_option_makes_a_wrong_verdict(toy, options):
 
 
 @pytest.mark.long
-def test_options_that_users_need_do_what_they_should(toy):
-    for option in ("-n", "--lint", "--report x.html"):
-        toy.run(*option.split())
-        assert (toy / "results/PASSED").exists(), option
-    assert "rule curves" in toy.passes("-F", "--rerun-triggers", "mtime")
-    assert toy.run("--touch").returncode == 0 and not (toy / "results/PASSED").exists()
-    assert "rule curves" not in toy.passes()
-
-
-@pytest.mark.long
 def test_a_run_that_is_asked_to_end_says_so(toy):
     """SIGTERM, as a scheduler of a cluster sends it."""
     (toy / "draw.within").write_text("wait")
