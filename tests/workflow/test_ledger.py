@@ -369,19 +369,6 @@ def test_micro_slip_is_judged_by_what_the_paper_compares():
         assert np.abs(models[first] - models[second]).max() == pytest.approx(quoted, abs=0.025)
 
 
-def test_the_reduction_of_the_largest_friction_grows_with_mu():
-    """So the entries on it name the smallest and the largest mu of Fig. 7."""
-    frictions = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0)
-    less = [ledger.run(f"peak_force.reduction({mu})").value for mu in frictions]
-    assert less == sorted(less)
-    for mu, found, rel in ((0.1, less[0], 1e-2), (1.0, less[-1], 1e-3)):
-        soft, hard = (
-            largest_peak(lumped.rebound, mu, 3.5, 1.21),
-            largest_peak(rigid.rebound, mu, 3.5),
-        )
-        assert found == pytest.approx(1 - soft / hard, rel=rel)
-
-
 def test_no_sign_saves_the_equations_of_dissipation():
     """Eqs 38 to 40 are judged by the best choice of the signs that the scan leaves open."""
     gaps = {sign: [] for sign in (-1, 1)}
