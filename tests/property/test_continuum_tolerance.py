@@ -127,8 +127,8 @@ def assert_met(groups, tolerances):
 
 
 def test_the_tolerance_is_met_by_elastic_spheres():
-    samples = np.array(FOUND).T, corner(40), around_onsets(8), all_over(40)
-    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: None, 1e-5: 45})
+    samples = np.array(FOUND).T, corner(30), around_onsets(5), all_over(24)
+    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: None, 1e-5: 20})
 
 
 @pytest.mark.slow
@@ -142,7 +142,7 @@ def test_the_estimate_survives_a_change_that_vanishes_by_chance():
     """From 256 to 512 steps the extrapolated answer moves by 1e-6, and is wrong by 3.4e-4."""
     groups = 8.823256960990886, 18.56038953662075, 0.3168530116148592
     exact = continuum.fixed_steps(*groups, 4096, True)  # 8192 steps change it by 3e-8
-    for tolerance in (1e-3, 5e-4, 3e-4, 1e-4):
+    for tolerance in (5e-4, 3e-4):
         assert abs(continuum.rebound(*groups, tolerance=tolerance).velocity - exact) <= tolerance
 
 
@@ -290,7 +290,7 @@ def test_the_error_falls_smoothly_with_the_square_of_the_steps(loss):
 @pytest.mark.parametrize("loss", [None, *continuum.LOSSES])
 def test_a_tolerance_may_be_a_share_of_any_incidence(loss):
     """As friction becomes large, x vanishes, and the velocity vanishes in proportion to it."""
-    rng, n, tolerance = np.random.default_rng(50), 7, 5e-3
+    rng, n, tolerance = np.random.default_rng(50), 5, 5e-3
     x = 10.0 ** np.concatenate([[-300.0, -100.0, -12.0], rng.uniform(-9, 0, n - 3)])
     beta, zeta2 = 10 ** rng.uniform(0, 1.6, n), 10 ** rng.uniform(-0.5, 0.6, n)
     e = rng.uniform(0.1, 0.97, n) if loss else np.ones(n)

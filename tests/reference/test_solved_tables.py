@@ -21,7 +21,6 @@ SERIES = reference_data.load_yaml(ROOT / "data/scenes_solved/source.yaml")["seri
     ("name", "step"),
     [
         ("billiard_cushion", 45),
-        ("superball", 6),
         *(pytest.param(name, 1, marks=pytest.mark.long) for name in solved_tables.SCENES),
     ],
 )
