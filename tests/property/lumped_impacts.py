@@ -23,7 +23,8 @@ BOX = {
 
 def drawn(rng, count, loss):
     """Groups on both sides of e omega/Omega = 1, e 1e-8 to 1, some incidences tiny."""
-    beta = 10 ** rng.uniform(0, rng.choice([1, 6], count))
+    powers = [1, 6] if loss == "hysteretic" else [0.9, 0.9]
+    beta = 10 ** rng.uniform(0, rng.choice(powers, count))
     small = 10 ** np.where(rng.random(count) < 0.2, rng.uniform(-8, 0, count), -rng.random(count))
     near_1 = 1 - 10 ** rng.uniform(-12, -1, count)
     e = np.choose(rng.integers(0, 6, count), [1.0, 1 - ULP / 2, near_1, small, small, small])

@@ -111,6 +111,8 @@ def test_no_condition_is_inflated(tables):
         (0.5, 1.0, 1e6, 0.9),
         (1e-30, 3.5, 1.21, 0.7),
         (2.0, 3.5, 3.5e-4, 0.9),
+        # Slip that stops for a moment only, after N + tau N' has turned negative.
+        (13.123907112722152, 7.81391911697076, 0.14401259515680903, 0.8513419297972314),
         # A last slip of no length: little loss, a soft tangential element.
         (1.1802952482075958e-05, 1.530372937008003, 8.689591378611864, 0.999999996890692),
         (3e-5, 4.2, 60.0, 1 - 1e-9),

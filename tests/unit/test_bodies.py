@@ -200,17 +200,6 @@ def test_restitution_at_one_speed_gives_the_material_and_back(loss):
 
 
 @pytest.mark.parametrize("loss", LAWS)
-def test_the_size_of_a_ball_does_not_matter_only_its_speed(loss):
-    """Mass grows with the third power of the radius; times grow with the radius."""
-    law, inverse = LAWS[loss]
-    material = inverse(0.7, 1.0, **STEEL)
-    if loss == "viscous":
-        material = 5 * material
-    large = {"mass": 125 * 0.0327, "effective_modulus": 115e9, "effective_radius": 5 * 0.01}
-    assert law(1.0, material, **large) == pytest.approx(0.7, abs=1e-10)
-
-
-@pytest.mark.parametrize("loss", LAWS)
 def test_peak_force_of_a_loss_begins_with_that_of_hertz(loss):
     hertz = bodies.hertz_peak_force(speed=2.0, **STEEL)
     e = np.array([1.0, 1 - 1e-12, 0.999])
