@@ -290,7 +290,7 @@ def test_the_error_falls_smoothly_with_the_square_of_the_steps(loss):
 @pytest.mark.parametrize("loss", [None, *continuum.LOSSES])
 def test_a_tolerance_may_be_a_share_of_any_incidence(loss):
     """As friction becomes large, x vanishes, and the velocity vanishes in proportion to it."""
-    rng, n, tolerance = np.random.default_rng(50), 5, 5e-3
+    rng, n, tolerance = np.random.default_rng(50), 7, 5e-3
     x = 10.0 ** np.concatenate([[-300.0, -100.0, -12.0], rng.uniform(-9, 0, n - 3)])
     beta, zeta2 = 10 ** rng.uniform(0, 1.6, n), 10 ** rng.uniform(-0.5, 0.6, n)
     e = rng.uniform(0.1, 0.97, n) if loss else np.ones(n)
