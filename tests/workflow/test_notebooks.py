@@ -143,7 +143,7 @@ def executed(book, look=lambda cell: None):
             plt.close("all")
 
 
-# All are drawn by the run itself; the longest ones are looked at once more in `long` alone.
+# One a day; `long` looks at the pictures of all lectures.
 @pytest.mark.parametrize(
     "book",
     [
