@@ -225,7 +225,7 @@ def test_links_unfold_what_they_lead_to(figures, tab):
 
 FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>
 <meta name="viewport" content="width=device-width, initial-scale=1"><style>
-:root { color-scheme: light dark; }
+:root { color-scheme: light dark; background: light-dark(#fff, #111); }
 .faint { color: light-dark(#222, #333); }
 </style></head><body><main><h1>Words</h1><details><button></button></details>
 <p class="faint">Unseen in the dark.</p><p style="width: 500px">Long.</p></main></body></html>"""
