@@ -1,4 +1,4 @@
-"""`collide` on random impacts: conservation, Coulomb's limit, frames, one impact beside many."""
+"""`collide`: conservation, Coulomb's limit, frames, limits, and one impact beside many."""
 
 import pickle
 
@@ -22,10 +22,19 @@ from planarimpact.collision import one_impact
 from planarimpact.normal_impact import yielding
 from tests.reference_solutions import inelastic_contact
 
-COUNT = 100_000
+COUNT = 30_000
 # Rounding, as a share of the largest term of a balance.
 ROUNDING = 1e-12
 WALL = bodies.HALF_SPACE
+STEEL = bodies.Material(207e9, 0.3)
+BALL = bodies.solid_sphere(0.01, 7800.0)
+
+
+def of_steel(friction, restitution, loss="plastic"):
+    return Pair(STEEL, friction=friction, restitution=restitution, loss=loss)
+
+
+# Random impacts.
 
 
 def directions(rng, count):
@@ -78,12 +87,8 @@ def impacts():
     """Arguments, and the answer to them, where normals have any length that is accepted."""
     arguments = random_impacts()
     pair, normal, *others = arguments
-    return arguments, collide(pair, nearly_unit(normal), *others)
-
-
-def nearly_unit(normal):
-    """Vectors whose length differs from 1 by up to 1e-6."""
-    return normal * (1 + 0.999e-6 * np.sin(np.arange(len(normal))))[:, None]
+    nearly_unit = normal * (1 + 0.999e-6 * np.sin(np.arange(len(normal))))[:, None]
+    return arguments, collide(pair, nearly_unit, *others)
 
 
 def dot(a, b):
@@ -137,6 +142,7 @@ def test_no_energy_is_created_and_friction_keeps_its_limit(impacts):
 
 
 def test_what_does_not_approach_is_left_alone(impacts):
+    """Of what does, the normal velocity is reversed by restitution."""
     (_, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
     contact = velocity - np.cross(spin, normal) * body.radius[:, None]
     contact = contact - other_velocity - np.cross(other_spin, normal) * other.radius[:, None]
@@ -152,21 +158,23 @@ def test_what_does_not_approach_is_left_alone(impacts):
         assert (then[alone] == before[alone]).all()
     assert (after.impulse[alone] == 0).all() and np.isnan(after.incidence[alone]).all()
     assert np.isnan(after.model_form[alone]).all() and (after.loss[alone] == "none").all()
-    # The normal velocity is reversed by restitution.
     contact = after.velocity - after.other_velocity
     change = dot(contact, normal) + after.restitution * dot(velocity - other_velocity, normal)
     assert np.abs(change[~alone]).max() < 1e-10
 
 
-@pytest.mark.parametrize("frame", ["rotated", "moving", "other body first"])
+@pytest.mark.parametrize("frame", ["rotated", "mirrored", "moving", "other body first"])
 def test_the_frame_does_not_matter(impacts, frame):
     (pair, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
     turn = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
-    turn, along = turn * np.sign(np.linalg.det(turn)), np.array([3.0, -1.0, 2.0])
-    if frame == "rotated":
-        rows = [v @ turn.T for v in (velocity, spin, other_velocity, other_spin)]
-        found = collide(pair, normal @ turn.T, body, *rows[:2], other, *rows[2:])
-        then = [v @ turn for v in (found.velocity, found.spin, found.other_velocity)]
+    hand = -1 if frame == "mirrored" else 1  # spins are axial vectors
+    turn, along = turn * hand * np.sign(np.linalg.det(turn)), np.array([3.0, -1.0, 2.0])
+    if frame in ("rotated", "mirrored"):
+        spins = [hand * w @ turn.T for w in (spin, other_spin)]
+        speeds = [v @ turn.T for v in (velocity, other_velocity)]
+        given = body, speeds[0], spins[0], other, speeds[1], spins[1]
+        found = collide(pair, normal @ turn.T, *given)
+        then = [found.velocity @ turn, hand * found.spin @ turn, found.other_velocity @ turn]
     elif frame == "moving":
         moved = collide(
             pair, normal, body, velocity + along, spin, other, other_velocity + along, other_spin
@@ -184,16 +192,19 @@ def test_the_frame_does_not_matter(impacts, frame):
         assert (error[met] <= 1e-8 * speed[met]).all()
 
 
+# One impact alone is taken by a function of its own.
+
+
 def sprayed():
     """Pairs and incidences around every threshold of incidence, restitution and zeta^2."""
     rng = np.random.default_rng(3)
     near = np.array([0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-4, -1e-4])
     rows = []
-    for e in (*spheres.LEAST_RESTITUTION * (1 + near), 0.6, 0.7, 0.9, *(1 - np.abs(near))):
+    for e in (*spheres.LEAST_RESTITUTION * (1 + near[:5]), 0.6, 0.7, 0.9, *(1 + near[::2])):
         for zeta2 in (1.0, 1.2, 1.5):
             for loss in spheres.LOSSES:
                 limit = continuum.slip_throughout_limit(3.5, zeta2, max(e, 0.3), loss=loss)
-                for x in (zeta2, 3.5, float(limit), *rng.uniform(0, 9, 2)):
+                for x in (zeta2, 3.5, float(limit), rng.uniform(0, 9)):
                     rows.append((zeta2, e, loss, x * (1 + rng.choice(near))))
     zeta2, e, loss, x = map(np.array, zip(*rows, strict=True))
     return Pair(friction=0.3, stiffness_ratio=zeta2, restitution=e, loss=loss), x
@@ -222,40 +233,10 @@ def test_one_impact_is_that_of_many():
     assert plain > 0.7 * x.size
 
 
-def answers_of_all_paths(pair, normal, velocity):
-    """The answer to one impact alone, in an array, and for a row of a scene; or its refusal."""
-    table = {"radius [m]": 0.01, "density [kg/m^3]": 7800.0, "young_modulus [Pa]": 207e9}
-    table |= {"poisson_ratio": 0.3, "friction": pair.friction, "restitution": pair.restitution}
-    table |= {"loss": "plastic" if pair.plastic else "viscous"}
-    for axis, n, v in zip("xyz", normal, velocity, strict=True):
-        table |= {f"normal_{axis}": n, f"velocity_{axis} [m/s]": v, f"spin_{axis} [rad/s]": 0.0}
-
-    def alone():
-        found = collide(pair, normal, BALL, velocity, [0, 0, 0])
-        return found.velocity, found.incidence, found.regime.name
-
-    def in_array():
-        found = collide(pair, [normal], BALL, [velocity], [0, 0, 0])
-        return found.velocity[0], found.incidence[0], Regime(found.regime[0]).name
-
-    def in_scene():
-        found = scene.solve(pd.DataFrame([table])).iloc[0]
-        columns = [f"velocity_{axis}_after [m/s]" for axis in "xyz"]
-        return found[columns].astype(float), found["incidence"], found["regime"]
-
-    answers = []
-    for path in (alone, in_array, in_scene):
-        try:
-            answers.append(path())
-        except InputError as error:
-            answers.append(str(error).split(": ", 1)[-1] if path != alone else str(error))
-    return answers
-
-
-@pytest.mark.parametrize("count", [40, pytest.param(2000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [10, pytest.param(2000, marks=pytest.mark.long)])
 def test_one_impact_is_that_of_many_where_metal_begins_to_slide(count):
     """The table has this incidence with an error, the continuum without one."""
-    rng, body = np.random.default_rng(9), bodies.Body(1.0, 1.0, 1.0)
+    rng = np.random.default_rng(9)
     for _ in range(count):
         b, zeta2, e = rng.uniform(1.5625, 3.5), rng.uniform(1.0, 1.6), rng.uniform(0.3, 0.7)
         groups = b * zeta2, zeta2, e
@@ -273,52 +254,7 @@ def test_one_impact_is_that_of_many_where_metal_begins_to_slide(count):
             np.testing.assert_allclose(one.velocity, many.velocity[0], rtol=1e-12, atol=1e-12)
 
 
-@pytest.mark.parametrize("kind", [np.float16, np.float32, np.longdouble, np.uint8, object])
-@pytest.mark.parametrize("shape", [(), (1,)])
-def test_bodies_of_any_kind_of_number_are_computed_in_double_precision(kind, shape):
-    numbers = {np.uint8: (200, 2, 3), object: (3 * 10**20, 2**64, 3 * 2**63)}
-    sizes = [np.full(shape, n, kind) for n in numbers.get(kind, (0.1, 0.0063, 0.01))]
-    wanted = bodies.Body(*(np.array(value, float) for value in sizes))
-    pair, velocity = of_steel(0.3, 0.8), np.full((*shape, 3), [0.5, 0, -2.0])
-    one, two = (
-        collide(pair, [0, 0, 1], body, velocity, [0, 0, 0])
-        for body in (bodies.Body(*(value[()] for value in sizes)), wanted)
-    )
-    for name in ("velocity", "spin", "impulse"):
-        values = getattr(one, name)
-        assert values.dtype == float
-        np.testing.assert_allclose(values, getattr(two, name), rtol=1e-13)
-
-
-def contact_velocity(found, normal, body):
-    """Of the contact point at a wall at rest."""
-    return found.velocity - np.cross(found.spin, normal) * body.radius
-
-
-@pytest.mark.parametrize("loss", spheres.LOSSES)
-@pytest.mark.parametrize(
-    ("zeta2", "e"), [(1.2, 0.8), (1.5, 0.35), (2.2, 0.6), (1.0, 0.2), (1.2, 1)]
-)
-def test_friction_of_any_size_is_that_of_springs_which_stick(zeta2, e, loss):
-    """Where x vanishes the rebound is in proportion to v1(0), and so is its error."""
-    up, unit_ball = [0, 0, 1], bodies.Body(1, 0.4**0.5, 1)
-    if e < 1:
-        wanted = inelastic_contact.small_incidences(loss, 1e-9, 3.5, zeta2, e)
-    else:
-        wanted = continuum.rebound(1e-4, 3.5, zeta2, tolerance=1e-9).velocity / 1e-4
-    for friction in 10.0 ** np.array([3, 4, 6, 9, 15, 24, 60, 100, 101, 200, 308]):
-        pair = Pair(stiffness_ratio=zeta2, friction=friction, restitution=e, loss=loss)
-        for shape in ((), (1,)):
-            velocity = np.full((*shape, 3), [0.5, 0, -2])
-            found = collide(pair, up, unit_ball, velocity, [0, 0, 0])
-            w = contact_velocity(found, up, unit_ball)[..., 0]
-            assert np.all(found.error_bound <= collision.TOLERANCE * 0.5 * (1 + 1e-12))
-            slack = found.error_bound + 0.5 * (inelastic_contact.SMALL + 2.5e-1 / friction)
-            assert np.all(np.abs(w - 0.5 * wanted) <= slack), (friction, w, wanted)
-            assert found.model_form < 0.5
-
-
-@pytest.mark.parametrize("count", [300, pytest.param(10_000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [80, pytest.param(10_000, marks=pytest.mark.long)])
 def test_one_path_for_numbers_of_every_size(count):
     """One impact alone and in an array: the same answer, or the same refusal, never NaN or inf.
 
@@ -367,37 +303,111 @@ def test_one_path_for_numbers_of_every_size(count):
     assert min(answered, refused) > count / 6
 
 
-def of_steel(friction, restitution, loss="plastic"):
-    return Pair(STEEL, friction=friction, restitution=restitution, loss=loss)
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.longdouble, np.uint8, object])
+def test_bodies_of_any_kind_of_number_are_computed_in_double_precision(kind):
+    numbers = {np.uint8: (200, 2, 3), object: (3 * 10**20, 2**64, 3 * 2**63)}
+    for shape in ((), (1,)):
+        sizes = [np.full(shape, n, kind) for n in numbers.get(kind, (0.1, 0.0063, 0.01))]
+        wanted = bodies.Body(*(np.array(value, float) for value in sizes))
+        pair, velocity = of_steel(0.3, 0.8), np.full((*shape, 3), [0.5, 0, -2.0])
+        one, two = (
+            collide(pair, [0, 0, 1], body, velocity, [0, 0, 0])
+            for body in (bodies.Body(*(value[()] for value in sizes)), wanted)
+        )
+        for name in ("velocity", "spin", "impulse"):
+            values = getattr(one, name)
+            assert values.dtype == float
+            np.testing.assert_allclose(values, getattr(two, name), rtol=1e-13)
 
 
-@pytest.mark.parametrize("length", [1, 1 + 1e-7, 1 - 1e-7, 1 + 9.9e-7, 1 - 9.9e-7])
+# Limits and thresholds, on all paths.
+
+
+def answers_of_all_paths(pair, normal, velocity):
+    """The answer to one impact alone, in an array, and for a row of a scene; or its refusal."""
+    table = {"radius [m]": 0.01, "density [kg/m^3]": 7800.0, "young_modulus [Pa]": 207e9}
+    table |= {"poisson_ratio": 0.3, "friction": pair.friction, "restitution": pair.restitution}
+    table |= {"loss": "plastic" if pair.plastic else "viscous"}
+    for axis, n, v in zip("xyz", normal, velocity, strict=True):
+        table |= {f"normal_{axis}": n, f"velocity_{axis} [m/s]": v, f"spin_{axis} [rad/s]": 0.0}
+
+    def alone():
+        found = collide(pair, normal, BALL, velocity, [0, 0, 0])
+        return found.velocity, found.incidence, found.regime.name
+
+    def in_array():
+        found = collide(pair, [normal], BALL, [velocity], [0, 0, 0])
+        return found.velocity[0], found.incidence[0], Regime(found.regime[0]).name
+
+    def in_scene():
+        found = scene.solve(pd.DataFrame([table])).iloc[0]
+        columns = [f"velocity_{axis}_after [m/s]" for axis in "xyz"]
+        return found[columns].astype(float), found["incidence"], found["regime"]
+
+    answers = []
+    for path in (alone, in_array, in_scene):
+        try:
+            answers.append(path())
+        except InputError as error:
+            answers.append(str(error).split(": ", 1)[-1] if path != alone else str(error))
+    return answers
+
+
+@pytest.mark.parametrize(
+    ("loss", "zeta2", "e"),
+    [
+        ("viscous", 1.5, 0.35),
+        ("plastic", 1.5, 0.35),
+        ("viscous", 2.2, 0.6),
+        ("plastic", 1.0, 0.2),
+        ("viscous", 1.2, 1),
+    ],
+)
+def test_friction_of_any_size_is_that_of_springs_which_stick(loss, zeta2, e):
+    """Where x vanishes the rebound is in proportion to v1(0), and so is its error."""
+    up, unit_ball = [0, 0, 1], bodies.Body(1, 0.4**0.5, 1)
+    if e < 1:
+        wanted = inelastic_contact.small_incidences(loss, 1e-9, 3.5, zeta2, e)
+    else:
+        wanted = continuum.rebound(1e-4, 3.5, zeta2, tolerance=1e-9).velocity / 1e-4
+    friction = 10.0 ** np.array([3, 4, 6, 9, 15, 24, 60, 100, 101, 200, 308])
+    pair = Pair(stiffness_ratio=zeta2, friction=friction, restitution=e, loss=loss)
+    for given, mu in ((pair, friction), (pair[-1], friction[-1])):
+        found = collide(given, up, unit_ball, [0.5, 0, -2], [0, 0, 0])
+        w = (found.velocity - np.cross(found.spin, up))[..., 0]
+        assert np.all(found.error_bound <= collision.TOLERANCE * 0.5 * (1 + 1e-12))
+        slack = found.error_bound + 0.5 * (inelastic_contact.SMALL + 2.5e-1 / mu)
+        assert np.all(np.abs(w - 0.5 * wanted) <= slack)
+        assert np.all(found.model_form < 0.5)
+
+
 @pytest.mark.parametrize("kind", [np.float64, np.float32])
-def test_the_length_of_a_normal_adds_no_energy_and_no_incidence(length, kind):
-    """Nor does a normal that is rounded to float32; beyond 1e-6 it is refused."""
+def test_the_length_of_a_normal_adds_no_energy_and_no_incidence(kind):
+    """Nor does a normal that is rounded to float32."""
     unit = np.array([2.0, 3.0, 6.0]) / 7
-    normal = (unit * length).astype(kind)
-    for e in (1.0, 0.8):
-        for velocity in (-3.0 * unit, -normal.astype(float), unit - [0.0, 0.0, 3.0]):
-            for answer, *_ in answers_of_all_paths(of_steel(0.3, e), normal, velocity):
-                assert np.sum(answer**2) <= np.sum(velocity**2) * (1 + 1e-14)
-        for friction in (0.3, 0.0):
-            for answer, incidence, _ in answers_of_all_paths(
-                of_steel(friction, e), normal, -3.0 * normal.astype(float)
-            ):
-                np.testing.assert_allclose(answer, 3 * e * normal.astype(float), rtol=1e-15)
-                assert incidence < 1e-14 or friction == 0
+    for length in (1 + 1e-7, 1 + 9.9e-7, 1 - 9.9e-7):
+        normal = (unit * length).astype(kind)
+        for e in (1.0, 0.8):
+            for velocity in (-3.0 * unit, unit - [0.0, 0.0, 3.0]):
+                for answer, *_ in answers_of_all_paths(of_steel(0.3, e), normal, velocity):
+                    assert np.sum(answer**2) <= np.sum(velocity**2) * (1 + 1e-14)
+            for friction in (0.3, 0.0):
+                for answer, incidence, _ in answers_of_all_paths(
+                    of_steel(friction, e), normal, -3.0 * normal.astype(float)
+                ):
+                    np.testing.assert_allclose(answer, 3 * e * normal.astype(float), rtol=1e-15)
+                    assert incidence < 1e-14 or friction == 0
 
 
-@pytest.mark.parametrize("velocity", [[0.3, 0, -1.0], [0.3, 0, 1.0], [0, 0, 0]])
-@pytest.mark.parametrize("length", [0, 0.9, 1 - 1.1e-6, 1 - 1e-6, 1 + 1e-6, 1 + 1.1e-6, 2, 1e200])
-def test_the_length_of_a_normal_is_looked_at_first(length, velocity):
+@pytest.mark.parametrize("length", [0, 1 - 1.1e-6, 1 - 1e-6, 1 + 1e-6, 1 + 1.1e-6, 1e200])
+def test_the_length_of_a_normal_is_looked_at_first(length):
     """On all paths alike, and also where nothing approaches, as of two centres at one place."""
-    for unit in ([0, 0, 1], [0, 0, -1], [0, 1, 0]):
-        normal = np.multiply(unit, float(length))
-        answers = answers_of_all_paths(of_steel(0.3, 0.8), normal, velocity)
-        told = ["the normal has the length" in str(answer) for answer in answers]
-        assert told == 3 * [abs(length - 1) > 1.05e-6]
+    for unit in ([0, 0, 1], [0, 1, 0]):
+        for velocity in ([0.3, 0, -1.0], [0.3, 0, 1.0], [0, 0, 0]):
+            normal = np.multiply(unit, float(length))
+            answers = answers_of_all_paths(of_steel(0.3, 0.8), normal, velocity)
+            told = ["the normal has the length" in str(answer) for answer in answers]
+            assert told == 3 * [abs(length - 1) > 1.05e-6]
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3, 1e-300])
@@ -415,7 +425,7 @@ def test_head_on_nothing_slips_whatever_the_friction(friction, loss):
         assert incidence == np.inf and regime == "SLIP_THROUGHOUT"
 
 
-@pytest.mark.parametrize("e", [0.3, 0.1, 0.03, 0.0219, 0.01, 1e-3, 1e-7, 1e-15])
+@pytest.mark.parametrize("e", [0.3, 0.1, 0.0219, 1e-7])
 def test_metal_slides_throughout_where_no_spring_can_hold_it(e):
     """The body outruns every spring: w > zeta^2 v times the pull of the middle one, always."""
     zeta2 = float(bodies.stiffness_ratio(STEEL))
@@ -434,102 +444,28 @@ def test_metal_slides_throughout_where_no_spring_can_hold_it(e):
             assert words.startswith(f"restitution = {e}: allowed are numbers from 0.1")
 
 
-def test_a_scene_has_the_same_answers():
-    """One table with `loss`, one with a yield pressure; vectors are its columns."""
-    rng, count = np.random.default_rng(4), 300
-    normal, other = directions(rng, count), bodies.solid_sphere(0.02, 2500.0)
-    velocity, other_velocity, spin = rng.normal(size=(3, count, 3)) * [[[1]], [[1]], [[50]]]
-    normal *= -np.sign(dot(velocity - other_velocity, normal))[:, None]
-    glass = {"young_modulus [Pa]": 70e9, "poisson_ratio": 0.2}
-    table = {"radius [m]": 0.01, "density [kg/m^3]": 7800.0, "friction": 0.2}
-    table |= {"young_modulus [Pa]": 207e9, "poisson_ratio": 0.3, "other_radius [m]": 0.02}
-    table |= {"other_density [kg/m^3]": 2500.0} | {f"other_{k}": v for k, v in glass.items()}
-    for k, axis in enumerate("xyz"):
-        table |= {f"normal_{axis}": normal[:, k], f"velocity_{axis} [m/s]": velocity[:, k]}
-        table |= {f"other_velocity_{axis} [m/s]": other_velocity[:, k]}
-        table |= {f"spin_{axis} [rad/s]": spin[:, k], f"other_spin_{axis} [rad/s]": 0.0}
-    for header, law in (
-        ({"restitution": 0.8, "loss": "viscous"}, {"restitution": 0.8, "loss": "viscous"}),
-        ({"yield_pressure [Pa]": 2e9}, {"yield_pressure": 2e9}),
-    ):
-        pair = Pair(STEEL, bodies.Material(*glass.values()), friction=0.2, **law)
-        after = collide(pair, normal, BALL, velocity, spin, other, other_velocity)
-        rows = scene.solve(pd.DataFrame(table | header))
-        for name, vectors in (("velocity", after.velocity), ("other_spin", after.other_spin)):
-            unit = "rad/s" if "spin" in name else "m/s"
-            columns = [f"{name}_{axis}_after [{unit}]" for axis in "xyz"]
-            np.testing.assert_allclose(rows[columns], vectors, rtol=1e-9, atol=1e-9)
-        np.testing.assert_allclose(rows["model_form [m/s]"], after.model_form, atol=1e-12)
-        np.testing.assert_allclose(rows["error_bound [m/s]"], after.error_bound, rtol=1e-9)
+@pytest.mark.parametrize("shape", [(), (1,), (1, 1), (2,)])
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+def test_impacts_of_any_shape_that_do_not_approach_are_left_alone(shape, speed):
+    velocity = np.broadcast_to([0.3, 0.0, speed], (*shape, 3))
+    for law in ({"restitution": 0.9, "loss": "viscous"}, {"yield_pressure": 3e9}):
+        pair = Pair(STEEL, friction=0.3, **law)
+        after = collide(pair, [0, 0, 1], BALL, velocity, np.zeros(3))
+        assert after.velocity.shape == (*shape, 3) and (after.velocity == velocity).all()
+        assert np.all(after.regime == Regime.NO_IMPACT) and np.isnan(after.model_form).all()
 
 
-STEEL = bodies.Material(207e9, 0.3)
-BALL = bodies.solid_sphere(0.01, 7800.0)
+def test_model_form_is_not_known_where_the_other_loss_has_no_answer():
+    """Metal that loses so much may stick, and the continuum does not go there."""
+    velocity, shapes = [5.0, 0, -1.0], ((), (1,))
+    for e, known in ((0.05, False), (0.0, False), (0.5, True)):
+        pair = Pair(STEEL, friction=0.1, restitution=e, loss="viscous")
+        for shape in shapes:
+            result = collide(pair, [0, 0, 1], BALL, np.full((*shape, 3), velocity), [0, 0, 0])
+            assert np.all(np.isfinite(result.model_form) == known)
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"normal": [0, 0, 2]}, "the normal has the length 2: allowed is 1"),
-        ({"velocity": [0, 0, -(10**400)]}, "velocity: an integer is beyond the range of numbers"),
-        ({"velocity": [1e308, 0, 0], "other_velocity": [-1e308, 0, 0]}, "too large or too small"),
-        ({"body": bodies.Body(1.7e308, 4e-3, 0.01)}, "too large or too small"),
-        ({"velocity": [0, np.nan, -1]}, r"velocity\[1\] = nan: allowed are finite numbers"),
-        ({"velocity": [0, -1], "spin": [0] * 4}, r"velocity, shape \(2,\): allowed are vectors"),
-        ({"spin": np.zeros((2, 3)), "velocity": np.zeros((3, 3))}, "shapes do not broadcast"),
-        ({"body": 1.0}, "body = 1.0: allowed is a bodies.Body"),
-        ({"pair": STEEL}, "pair = Material.*: allowed is a planarimpact.Pair"),
-        ({"tolerance": 0.0}, "tolerance = 0.0: allowed are numbers from 1e-10 to 1"),
-        ({"body": WALL}, "body.mass = inf, other.mass = inf: one of the two must be finite"),
-        (
-            {"pair": Pair(STEEL, friction=0.9, restitution=0.05, loss="plastic")},
-            "restitution = 0.05: allowed are numbers from 0.1",
-        ),
-    ],
-)
-def test_bad_arguments_are_refused(change, words):
-    good = {
-        "pair": Pair(STEEL, friction=0.9, restitution=1),
-        "normal": [0, 0, 1],
-        "body": BALL,
-        "velocity": [1.0, 0, -1.0],
-        "spin": [0, 0, 0],
-    }
-    collide(**good)
-    with pytest.raises(InputError, match=words):
-        collide(**good | change)
-
-
-def test_the_impact_of_an_array_is_named():
-    velocity = [[1.0, 0, -1.0], [1.0, 0, 1.0], [1.0, 0, -1.0]]
-    pair = Pair(STEEL, friction=[0.9], restitution=[0.8, 0.8, 0.05], loss="plastic")
-    with pytest.raises(InputError, match=r"impact \[2\]: restitution = 0.05"):
-        collide(pair, [0, 0, 1], BALL, velocity, np.zeros(3))
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (
-            {"restitution": 0.8},
-            "restitution = 0.8: .* unless loss says .*: viscous, plastic",
-        ),
-        ({"restitution": 1.2}, "restitution = 1.2: allowed are"),
-        ({"restitution": 0.8, "loss": "magic"}, "loss = 'magic': allowed are viscous, plastic"),
-        ({}, "0 of them given, needed is exactly one"),
-        ({"restitution": 1, "yield_pressure": 1e9}, "2 of them given"),
-        (
-            {"yield_pressure": 1e9, "loss": "viscous"},
-            "loss = 'viscous': allowed beside yield_pressure is plastic",
-        ),
-        ({"relaxation_time": -1.0}, "relaxation_time = -1.0: allowed are finite numbers from 0"),
-        ({"restitution": 1, "friction": -0.1}, "friction = -0.1: allowed are"),
-        ({"restitution": 1, "stiffness_ratio": 1.2}, "needed is one of the two"),
-    ],
-)
-def test_a_pair_that_is_not_clear_is_refused(arguments, words):
-    with pytest.raises(InputError, match=words):
-        Pair(STEEL, **{"friction": 0.2} | arguments)
+# Pairs.
 
 
 def test_a_table_of_pairs_is_indexed_by_kinds():
@@ -563,44 +499,8 @@ def test_nobody_changes_a_pair():
 
 
 def test_a_caller_may_change_its_vectors_afterwards():
-    velocity, pair = (
-        np.array([0.6, 0, -1.0]),
-        Pair(STEEL, friction=0.3, restitution=0.8, loss="plastic"),
-    )
+    velocity, pair = np.array([0.6, 0, -1.0]), of_steel(0.3, 0.8)
     wanted = collide(pair, [0, 0, 1], BALL, velocity, [0, 0, 0]).model_form
     result = collide(pair, [0, 0, 1], BALL, velocity, [0, 0, 0])
     velocity[:] = result.velocity
     assert result.model_form == wanted > 0
-
-
-@pytest.mark.parametrize("shape", [(), (1,), (1, 1), (2,)])
-@pytest.mark.parametrize("speed", [0.0, 1.0])
-def test_impacts_of_any_shape_that_do_not_approach_are_left_alone(shape, speed):
-    velocity = np.broadcast_to([0.3, 0.0, speed], (*shape, 3))
-    for law in ({"restitution": 0.9, "loss": "viscous"}, {"yield_pressure": 3e9}):
-        pair = Pair(STEEL, friction=0.3, **law)
-        after = collide(pair, [0, 0, 1], BALL, velocity, np.zeros(3))
-        assert after.velocity.shape == (*shape, 3) and (after.velocity == velocity).all()
-        assert np.all(after.regime == Regime.NO_IMPACT) and np.isnan(after.model_form).all()
-
-
-def test_model_form_is_the_distance_to_the_other_loss():
-    velocity, form = [], []
-    for loss in collision.LOSSES:
-        pair = Pair(STEEL, friction=0.3, restitution=0.8, loss=loss)
-        result = collide(pair, [0, 0, 1], BALL, [0.6, 0, -1.0], [0, 0, 0])
-        contact = result.velocity - np.cross(result.spin, [0, 0, 1]) * BALL.radius
-        velocity.append(contact[0])
-        form.append(float(result.model_form))
-    assert abs(velocity[1] - velocity[0]) > 0.02
-    np.testing.assert_allclose(form, abs(velocity[1] - velocity[0]), rtol=1e-9)
-
-
-def test_model_form_is_not_known_where_the_other_loss_has_no_answer():
-    """Metal that loses so much may stick, and the continuum does not go there."""
-    velocity, shapes = [5.0, 0, -1.0], ((), (1,))
-    for e, known in ((0.05, False), (0.0, False), (0.5, True)):
-        pair = Pair(STEEL, friction=0.1, restitution=e, loss="viscous")
-        for shape in shapes:
-            result = collide(pair, [0, 0, 1], BALL, np.full((*shape, 3), velocity), [0, 0, 0])
-            assert np.all(np.isfinite(result.model_form) == known)

@@ -8,28 +8,16 @@ import time
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from planarimpact import (
-    ConvergenceError,
-    InputError,
-    bodies,
-    continuum,
-    lumped,
-    models,
-    scene,
-)
+from planarimpact import ConvergenceError, InputError, bodies, continuum, lumped, models, scene
 from planarimpact.continuum import annuli
 from planarimpact.models import laws
 
-LAWS = [laws.smith, laws.brach]
 NAMES = ["linear", "mindlin", "mindlin_rescaled"]
 LINEAR, MINDLIN, RESCALED = STEPPED = [models.get(f"timestep.{name}").rebound for name in NAMES]
 MASS_RATIOS = [1.0, np.nextafter(1, 2), 3.5, 1e6, 1e300, 8e307]
 STIFFNESS_RATIOS = [5e-324, 1e-300, 1e-8, 1.21, 1e12, 1e300, 1.7e308]
 RESTITUTIONS = [0.0, 5e-324, 1e-160, 1e-3, 0.5, np.nextafter(1, 0), 1.0]
-FEWER = settings(max_examples=settings.default.max_examples // 7)
 LONGEST = 30  # s of the processor for one call
 
 
@@ -73,7 +61,7 @@ def assert_possible(result, x, gain=0.0):
     assert ((peak >= 0) & (peak <= 1)).all()
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", [laws.smith, laws.brach])
 def test_laws_of_impulses(law):
     for x, *groups in box(RESTITUTIONS):
         assert_possible(law(x, *groups), x)
@@ -81,14 +69,14 @@ def test_laws_of_impulses(law):
 
 @pytest.mark.parametrize("law", STEPPED, ids=NAMES)
 def test_laws_in_steps(law):
+    gain = {MINDLIN: 0.06, LINEAR: 0.03, RESCALED: 0.0}[law]
     solved = 0
-    for x, *groups in box(RESTITUTIONS):
+    for x, *groups in box(RESTITUTIONS[::2]):
         result = answered(lambda x=x, groups=groups: law(x, *groups, steps=64))
         if result is not None:
             solved += 1
-            gain = 0.06 if law is MINDLIN else 0.03 if law is LINEAR else 0.0
             assert_possible(result, x, gain)
-    assert solved > 100
+    assert solved > 60
 
 
 @pytest.mark.parametrize("law", STEPPED, ids=NAMES)
@@ -105,18 +93,16 @@ def test_a_tiny_impact_scales_a_small_one(law):
 
 def test_annuli():
     solved = 0
-    for circles, steps in ((1, 64), (8, 128)):
-        for x, *groups in box([1.0]):
-            call = {"circles": circles, "steps": steps}
-            result = answered(lambda x=x, g=groups, c=call: annuli.rebound(x, *g, **c))
-            if result is not None:
-                solved += 1
-                assert_possible(result, x, 0.02)
-    assert solved > 20
+    for x, *groups in box([1.0]):
+        result = answered(lambda x=x, g=groups: annuli.rebound(x, *g, circles=4, steps=64))
+        if result is not None:
+            solved += 1
+            assert_possible(result, x, 0.02)
+    assert solved > 10
 
 
-@pytest.mark.parametrize("beta", [1.0, 3.5, 8e307])
-@pytest.mark.parametrize("zeta2", [5e-324, 1e-8, 1.21, 1e12, 1e300])
+@pytest.mark.parametrize("beta", [1.0, 8e307])
+@pytest.mark.parametrize("zeta2", [5e-324, 1e-8, 1.21, 1e300])
 def test_the_continuum(beta, zeta2):
     limit = float(lumped.slip_throughout_limit(beta, zeta2))
     for x in (5e-324, np.nextafter(limit, 0), limit, limit / 2, 8e307):
@@ -129,23 +115,21 @@ def test_the_continuum(beta, zeta2):
                 assert result.velocity[0] == x - 2 * beta
 
 
-REFUSED = {
-    "circles": lambda: annuli.rebound(2.0, circles=10**9),
-    "steps = 1000000000": lambda: annuli.rebound(2.0, steps=10**9),
-    "steps = 2": lambda: MINDLIN(2.0, steps=2),
-    "steps = 100000000": lambda: LINEAR(2.0, steps=10**8),
-    "unstable": lambda: LINEAR(1.0, 3.5, 1e-3, steps=64),
-    "steps = 16: allowed are integers from 3142": lambda: continuum.fixed_steps(
-        1, 1e6, 1, steps=16
-    ),
-    "steps = 1000000000:": lambda: continuum.fixed_steps(1.0, steps=10**9),
-    "to 32768": lambda: continuum.fixed_steps(1e-9, 1.0, 1e-300),
-    "rounding alone": lambda: continuum.rebound(2.0, tolerance=1e-16),
-    "out of reach of 32768": lambda: continuum.rebound(2.0, tolerance=1e-13),
-}
+REFUSED = [
+    ("circles = 1000000000", lambda: annuli.rebound(2.0, circles=10**9)),
+    ("steps = 1000000000", lambda: annuli.rebound(2.0, steps=10**9)),
+    ("steps = 2", lambda: MINDLIN(2.0, steps=2)),
+    ("steps = 100000000", lambda: LINEAR(2.0, steps=10**8)),
+    ("unstable", lambda: LINEAR(1.0, 3.5, 1e-3, steps=64)),
+    ("integers from 3142", lambda: continuum.fixed_steps(1, 1e6, 1, steps=16)),
+    ("steps = 1000000000:", lambda: continuum.fixed_steps(1.0, steps=10**9)),
+    ("to 32768", lambda: continuum.fixed_steps(1e-9, 1.0, 1e-300)),
+    ("rounding alone", lambda: continuum.rebound(2.0, tolerance=1e-16)),
+    ("out of reach of 32768", lambda: continuum.rebound(2.0, tolerance=1e-13)),
+]
 
 
-@pytest.mark.parametrize(("words", "call"), REFUSED.items(), ids=list(REFUSED))
+@pytest.mark.parametrize(("words", "call"), REFUSED, ids=[words for words, _ in REFUSED])
 def test_what_cannot_be_done_is_refused_at_once(words, call):
     start = time.process_time()
     with pytest.raises((InputError, ConvergenceError), match=words):
@@ -156,7 +140,8 @@ def test_what_cannot_be_done_is_refused_at_once(words, call):
 # Physical scales. A unit that is a power of two changes exponents only, if nothing leaves the
 # range of numbers on the way. Powers of m, kg and s are the columns.
 
-EXPONENT = st.integers(-160, 160)
+EXPONENTS = [(160, 0, 0), (0, 160, 0), (0, 0, 160), (-160, 160, -160), (160, -160, -160)]
+EXPONENTS += [(-7, 3, 11)]
 UNITS = {
     "radius [m]": (1, 0, 0),
     "other_radius [m]": (1, 0, 0),
@@ -207,11 +192,14 @@ def in_units(table, *exponents):
     return table.assign(**{name: table[name] * factor[name] for name in table if name in UNITS})
 
 
-@FEWER
-@given(EXPONENT, EXPONENT, EXPONENT)
-def test_a_scene_has_no_scale(metre, kilogram, second):
-    table = in_units(ROWS, metre, kilogram, second)
-    found, wanted = scene.solve(table), in_units(scene.solve(ROWS), metre, kilogram, second)
+@pytest.fixture(scope="module")
+def solved():
+    return scene.solve(ROWS)
+
+
+@pytest.mark.parametrize("exponents", EXPONENTS)
+def test_a_scene_has_no_scale(exponents, solved):
+    found, wanted = scene.solve(in_units(ROWS, *exponents)), in_units(solved, *exponents)
     for name in found:
         if "force" in name:  # powers that are no whole numbers
             np.testing.assert_allclose(found[name], wanted[name], rtol=1e-13)
@@ -219,10 +207,9 @@ def test_a_scene_has_no_scale(metre, kilogram, second):
             assert found[name].tolist() == wanted[name].tolist(), name
 
 
-@FEWER
-@given(EXPONENT, EXPONENT, EXPONENT)
-def test_bodies_have_no_scale(metre, kilogram, second):
-    m, kg, s = 2.0**metre, 2.0**kilogram, 2.0**second
+@pytest.mark.parametrize("exponents", EXPONENTS)
+def test_bodies_have_no_scale(exponents):
+    m, kg, s = (2.0**exponent for exponent in exponents)
     speed, modulus = m / s, kg / m / s / s
 
     def physics(m, kg, s, speed, modulus):
@@ -239,22 +226,6 @@ def test_bodies_have_no_scale(metre, kilogram, second):
         return m1 / kg, m2 / kg, ratio, zeta2, radius / m, x, *scaled
 
     assert physics(m, kg, s, speed, modulus) == physics(1.0, 1.0, 1.0, 1.0, 1.0)
-
-
-BEYOND = [
-    lambda: bodies.solid_sphere(1e-150, 1e-150),
-    lambda: bodies.solid_sphere(1e150, 1e150),
-    lambda: bodies.mass_ratio(bodies.Body(1.0, 1e-150, 1e150)),
-    lambda: bodies.hertz_peak_force(1e150, 1e150, 1e150, 1e150),
-    lambda: bodies.normal_frequency(1e150, 1e-150, 1e-150),
-    lambda: bodies.contact_velocity(1e300, 1.0, 1e200, 1e200),
-]
-
-
-@pytest.mark.parametrize("call", BEYOND)
-def test_results_beyond_the_range_of_numbers_are_refused(call):
-    with pytest.raises(bodies.OutOfRange, match=" = .*: it is beyond the range of numbers"):
-        call()
 
 
 def test_a_scene_refuses_such_rows_by_number():

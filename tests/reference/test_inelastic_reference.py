@@ -11,11 +11,12 @@ from tests.reference_solutions.inelastic_contact import rebound as stepped
 # answers change by up to 3.4e-4 (e = 0.9, next to x = zeta^2), with four times as many by 2e-5
 # more.
 SECOND_CODE = 5e-4
-CASES = [(0.9, 3.5, 1.21), (0.35, 2.5, 0.9), (0.7, 7.5, 0.85), (0.5, 1.2, 1.9)]
+CASES = [(0.9, 3.5, 1.21), (0.35, 2.5, 0.9)]
+MORE = [pytest.param(*case, marks=pytest.mark.long) for case in [(0.7, 7.5, 0.85), (0.5, 1.2, 1.9)]]
 
 
 @pytest.mark.parametrize("loss", continuum.LOSSES)
-@pytest.mark.parametrize(("e", "beta", "zeta2"), CASES)
+@pytest.mark.parametrize(("e", "beta", "zeta2"), CASES + MORE)
 def test_velocities_meet_their_tolerance_by_a_second_code(loss, e, beta, zeta2):
     limit = float(continuum.slip_throughout_limit(beta, zeta2, e, loss=loss))
     # In each regime, and next to each threshold.
@@ -26,12 +27,6 @@ def test_velocities_meet_their_tolerance_by_a_second_code(loss, e, beta, zeta2):
     for tolerance in (1e-2, 1e-3, 1e-4):
         found = continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=tolerance)
         np.testing.assert_allclose(found.velocity, second, atol=tolerance + SECOND_CODE)
-
-
-def test_a_wrong_stiffness_ratio_is_seen_by_the_second_code():
-    second = stepped("continuum.viscous", np.array([2.0]), 3.5, 1.21, 0.6)
-    wrong = continuum.rebound(2.0, 3.5, 1.21 * 1.02, 0.6, loss="viscous")
-    assert abs(wrong.velocity - second[0]) > 5 * SECOND_CODE
 
 
 @pytest.mark.parametrize("loss", continuum.LOSSES)

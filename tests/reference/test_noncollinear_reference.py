@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from planarimpact import noncollinear
-from planarimpact.noncollinear import phases
 from tests.reference_solutions.noncollinear_integration import Contact
 
 paper_rebound = partial(noncollinear.rebound, loss="hysteretic")
@@ -44,7 +43,7 @@ def random_impact(rng):
     return v1, v2, body, friction, rng.uniform(0.1, 1), ratio, stiffness
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(n, marks=pytest.mark.long) for n in (1, 2, 3))])
 def test_random_bodies(seed):
     rng = np.random.default_rng(seed)
     jams = 0
@@ -106,7 +105,7 @@ def test_no_restitution_is_the_limit_of_integrations_with_little(
     limit = paper_rebound(v1, 1.0, mass, friction, 0.0, stiffness_ratio)
     assert limit.jams and limit.normal == 0
     changes = []
-    for e in (0.08, 0.02):
+    for e in (0.12, 0.04):
         contact = Contact(v1, -1.0, body, friction, e, stiffness_ratio, 1.0).run()
         _, _, tangential, normal = contact.state
         bound = swing(limit.peak_friction, limit.peak_normal, mass, e)
@@ -115,10 +114,11 @@ def test_no_restitution_is_the_limit_of_integrations_with_little(
         assert abs(contact.peak_friction - limit.peak_friction) <= bound
         assert abs(contact.time - limit.duration) <= bound
     # It comes closer at least as fast as e falls.
-    assert changes[1] <= changes[0] / 4
+    assert changes[1] <= changes[0] / 3
 
 
-def test_no_restitution_is_the_limit_for_any_body():
+@pytest.mark.parametrize("e", [0.02, pytest.param(0.005, marks=pytest.mark.long)])
+def test_no_restitution_is_the_limit_for_any_body(e):
     rng = np.random.default_rng(0)
     size = 300
     beta, mu = 10 ** rng.uniform(-1, 1, size), 10 ** rng.uniform(-0.5, 1, size)
@@ -134,10 +134,9 @@ def test_no_restitution_is_the_limit_for_any_body():
     np.testing.assert_allclose(energy - after, lost, atol=1e-12 * energy.max(), rtol=1e-12)
     # Where a contact just fails to let go the answer jumps, at a place that moves with e: none of
     # these impacts lies between.
-    for e in (0.02, 0.005):
-        little = paper_rebound(v1, 1.0, mass, mu, e, zeta2)
-        bound = swing(limit.peak_friction, limit.peak_normal, mass, e)
-        assert (np.abs(little.tangential - limit.tangential) <= bound).all()
+    little = paper_rebound(v1, 1.0, mass, mu, e, zeta2)
+    bound = swing(limit.peak_friction, limit.peak_normal, mass, e)
+    assert (np.abs(little.tangential - limit.tangential) <= bound).all()
 
 
 @pytest.mark.parametrize(
@@ -148,18 +147,7 @@ def test_friction_that_just_suffices_compresses_a_contact_again(impact):
     v1, mass_ratio, coupling, friction, stiffness_ratio = impact
     mass = noncollinear.InverseMass(mass_ratio, coupling, 1.0)
     limit, little = (
-        paper_rebound(v1, 1.0, mass, friction, e, stiffness_ratio) for e in (0.0, 0.001)
+        paper_rebound(v1, 1.0, mass, friction, e, stiffness_ratio) for e in (0.0, 0.003)
     )
     assert abs(little.tangential - limit.tangential) < 1e-4
     assert abs(little.peak_normal - limit.peak_normal) < 1e-4
-
-
-def test_a_wrong_solver_would_be_seen(monkeypatch):
-    """The bound is no formality: a slightly wrong restitution, or work, breaks it."""
-    impact = (2.0, 1.0, (1.0, 12**-0.5, 0.2, -0.4), 1.6, 0.5, 1.21, 50.0)
-    changed = (*impact[:4], 0.5 + 1e-7, *impact[5:])
-    exact, wrong = (errors(*case)[1] for case in (impact, changed))
-    assert abs(exact.tangential - wrong.tangential) > AGREEMENT
-    work = phases.Slip.work
-    monkeypatch.setattr(phases.Slip, "work", lambda *a: work(*a) * (1 + 1e-6))
-    assert max(errors(*impact)[0]) > AGREEMENT

@@ -5,14 +5,14 @@ and at random places. From the worst of them it climbs: it tries places around t
 nearer. Errors of velocity and work are in proportion to zeta^2: the largest one is tried. Those of
 plastic dissipation grow with the incidence, so the climb of that one leads to large incidences.
 Below x = 1 errors are in proportion to x: there a search of its own asks the second code, as the
-continuum would take very many steps. The suite searches a little, the profile `long` more, from
-other seeds.
+continuum would take very many steps. The suite tries what searches found, the impacts around it and
+a few more; the profile `long` climbs, from other seeds.
 """
 
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Regime, continuum, export, spheres
+from planarimpact import Regime, continuum, export, spheres
 from planarimpact.spheres import making, table
 from tests.reference_solutions import inelastic_contact
 
@@ -20,7 +20,7 @@ from tests.reference_solutions import inelastic_contact
 TOLERANCE = {"viscous": 4e-5, "plastic": 2e-4}
 FIELDS = "velocity", "peak_friction", "dissipation"
 # Impacts at the beginning; places that are climbed from, places tried around each, and rounds.
-SHORT, LONG, MANY = (80, 3, 6, 3), (6000, 60, 12, 12), (20_000, 200, 12, 8)
+SHORT, LONG, MANY = (8, 1, 2, 1), (6000, 60, 12, 12), (8000, 100, 12, 6)
 STEP, NEARER = 0.5, 0.6  # intervals of the splines
 # Wrong with a table of a polynomial in each cell: x, m2/m1, zeta^2, e.
 FOUND = {
@@ -156,7 +156,7 @@ def test_the_coarse_table_is_as_near_as_it_says(name, monkeypatch):
 @pytest.mark.parametrize("name", table.ROOTS)
 @pytest.mark.parametrize(
     ("seed", "tried"),
-    [(0, 4), *(pytest.param(seed, 30, marks=pytest.mark.long) for seed in (1, 2))],
+    [(0, 1), *(pytest.param(seed, 30, marks=pytest.mark.long) for seed in (1, 2))],
 )
 def test_below_x_of_1_the_error_is_over_x(name, seed, tried):
     """A climb over b and e from the worst of some; each tries incidences down to 1e-9."""
@@ -173,17 +173,18 @@ def test_below_x_of_1_the_error_is_over_x(name, seed, tried):
         found = spheres.rebound(x, b * zeta2, zeta2, e, loss=loss).velocity / x
         return np.max(np.abs(found - wanted)) / (bound_of(name) + inelastic_contact.SMALL)
 
-    place = max(random.random((tried, 2)), key=share)
+    best, *place = max((share(place), *place) for place in random.random((tried, 2)))
     for step in 0.3 * 0.7 ** np.arange(tried):
-        place = max(place, np.clip(place + random.normal(0, step, 2), 0, 1), key=share)
-    assert share(place) <= 1, place
+        near = np.clip(place + random.normal(0, step, 2), 0, 1)
+        best, *place = max((best, *place), (share(near), *near))
+    assert best <= 1, place
 
 
 @pytest.mark.parametrize("loss", spheres.LOSSES)
 def test_the_regime_is_right_nearly_everywhere(loss):
     """Impacts that slip as a whole more often than once are not told apart."""
     random = np.random.default_rng(40)
-    zeta2, e, share = random.uniform([[1.0], [0.3], [0.0]], [[1.5], [1.0], [1.0]], (3, 300))
+    zeta2, e, share = random.uniform([[1.0], [0.3], [0.0]], [[1.5], [1.0], [1.0]], (3, 100))
     chosen = share * 3.5 * (1 + e), 3.5, zeta2, e
     found = spheres.rebound(*chosen, loss=loss)
     exact = continuum.rebound(*chosen, loss=loss, tolerance=1e-3)
@@ -191,8 +192,12 @@ def test_the_regime_is_right_nearly_everywhere(loss):
 
 
 @pytest.mark.parametrize("loss", FOUND)
-def test_impacts_that_were_wrong(loss):
-    error, bounds = errors(loss, *np.transpose(FOUND[loss]))
+def test_impacts_that_were_wrong_and_those_around_them(loss):
+    found, random = np.transpose(FOUND[loss]), np.random.default_rng(21)
+    around = found * (1 + 0.01 * random.normal(size=found.shape))
+    around[3] = np.clip(around[3], spheres.LEAST_RESTITUTION, 1.0)
+    around = around[:, spheres.covers(*around[1:])]
+    error, bounds = errors(loss, *np.concatenate([found, around], axis=1))
     assert (error <= bounds).all(), error / bounds
 
 
@@ -215,7 +220,7 @@ def test_the_answer_does_not_jump_from_patch_to_patch(name):
 @pytest.mark.parametrize(("loss", "stated"), [("viscous", 4e-6), ("plastic", 1e-3)])
 def test_the_velocity_jumps_no_more_than_is_stated(loss, stated):
     """Where slip throughout begins, and at the restitutions where plastic panels meet."""
-    random, shipped, count = np.random.default_rng(31), table.shipped(), 20_000
+    random, shipped, count = np.random.default_rng(31), table.shipped(), 5000
     # The largest jumps are next to the lower bounds of restitution and mass over stiffness ratio.
     share, u = random.random(count) ** 2, random.random(count) ** 2
     b = spheres.LEAST_RATIO + u * (spheres.LARGEST_RATIO - spheres.LEAST_RATIO)
@@ -232,9 +237,3 @@ def test_the_velocity_jumps_no_more_than_is_stated(loss, stated):
         for x, e in impacts
     ]
     assert stated / 5 < np.max(np.abs(jumps)) <= stated
-
-
-def test_errors_that_scale_with_the_stiffness_ratio_are_refused():
-    assert not spheres.covers(343.419, 100.0, 0.313977)
-    with pytest.raises(InputError, match=r"stiffness_ratio = 100.*1\.6, for the table of spheres"):
-        spheres.rebound(34.2795, 343.419, 100.0, 0.313977, loss="plastic")

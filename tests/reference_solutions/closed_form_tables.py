@@ -3,14 +3,13 @@
 python -m tests.reference_solutions.closed_form_tables data/closed_forms
 """
 
-import functools
 import sys
 
 from mpmath import mp
 
 from tests.reference_solutions import exact_tables, table_files
 from tests.reference_solutions.exact_tables import ANGLE, BETA, INCIDENCE, VELOCITY, ZETA2
-from tests.reference_solutions.table_files import Table
+from tests.reference_solutions.table_files import Table, table
 
 
 @mp.workdps(table_files.DIGITS)
@@ -40,12 +39,9 @@ def _fig2():
         "normal unloading": [(1, 1), (1 - base, 0)],
         "tangential": [(s, s / mp.mpf(ZETA2)) for s in (-1, 1)],
     }
-    rows = [
-        functools.partial(list, [curve, *map(mp.mpf, point)])
-        for curve, points in lines.items()
-        for point in points
-    ]
-    return Table(["curve", "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"], rows)
+    header = ["curve", "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"]
+    ends = [(curve, *point) for curve, points in lines.items() for point in points]
+    return table(header, lambda curve, *point: [curve, *map(mp.mpf, point)], ends)
 
 
 # Without tangential compliance: slides until the impulse is x/beta, then sticks ----------------
@@ -53,8 +49,7 @@ def _fig2():
 
 def _fig5():
     grid = (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 6.5, 6.9, 7.0, 7.1, 7.5, 8.0, 10.0, 12.0, 14.0)
-    rows = [functools.partial(_rebound, x) for x in grid]
-    return Table(["curve", INCIDENCE, VELOCITY], rows)
+    return table(["curve", INCIDENCE, VELOCITY], _rebound, [(x,) for x in grid])
 
 
 def _rebound(x):
@@ -67,14 +62,12 @@ def _fig7():
     At the border x = 2 beta - zeta^2 friction is mu cos(theta) at its largest, mu = tan(theta)/x.
     """
     border = 2 * mp.mpf(BETA) - mp.mpf(ZETA2)
-    rows = []
-    for angle in [*exact_tables.FIG7_ANGLES, 90.0]:
-        rows.append(functools.partial(_turned, "normal", angle, mp.cos, mp.one))
-    for angle in [*exact_tables.FIG7_ANGLES, 90.0]:
-        rows.append(functools.partial(_turned, "slip throughout", angle, mp.sin, border))
-    for mu in exact_tables.FRICTIONS:
-        rows += [functools.partial(_halted_force, mu, a) for a in exact_tables.fig7_angles(mu)]
-    return Table(["curve", ANGLE, "peak_force [m2 Omega S]"], rows)
+    header, angles = ["curve", ANGLE, "peak_force [m2 Omega S]"], [*exact_tables.FIG7_ANGLES, 90.0]
+    lines = [("normal", mp.cos, mp.one), ("slip throughout", mp.sin, border)]
+    turned = [(curve, angle, *line) for curve, *line in lines for angle in angles]
+    halted = [(mu, a) for mu in exact_tables.FRICTIONS for a in exact_tables.fig7_angles(mu)]
+    rows = table(header, _turned, turned).rows + table(header, _halted_force, halted).rows
+    return Table(header, rows)
 
 
 def _turned(curve, angle, function, over):
@@ -91,12 +84,12 @@ def _halted_force(mu, angle):
 
 
 def _fig9():
-    rows = []
+    places = []
     for mu, e in exact_tables.UNSOLVED_FIG9:
         angles = {float(k) for k in range(5, 90, 5)}
         angles |= set(exact_tables.threshold_angles(mu, (1 + e) * BETA))
-        rows += [functools.partial(_halted_work, mu, e, angle) for angle in sorted(angles)]
-    return Table(["curve", ANGLE, "friction_dissipation [m2 S^2/2]"], rows)
+        places += [(mu, e, angle) for angle in sorted(angles)]
+    return table(["curve", ANGLE, "friction_dissipation [m2 S^2/2]"], _halted_work, places)
 
 
 def _halted_work(mu, e, angle):

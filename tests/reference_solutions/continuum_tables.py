@@ -8,13 +8,14 @@ motion in closed form. Rebounds in the same folder are of tests/package_tables/r
 
 import functools
 import sys
+from itertools import product
 
 import numpy as np
 from mpmath import mp
 
 from tests.reference_solutions import spring_row, table_files
 from tests.reference_solutions.exact_tables import BETA, HERTZ_FORCES, VELOCITY, ZETA2
-from tests.reference_solutions.table_files import Table
+from tests.reference_solutions.table_files import digits
 
 COURSES = (0.5, 1.0, 2.5, 4.5)  # incidences of the histories
 INSTANTS = tuple(round(0.1 * k, 1) for k in range(1, 20))
@@ -25,12 +26,9 @@ ROW_ERROR = {"friction": 5e-5, "velocity": 1e-4, "stick_radius": 5e-4}
 
 def tables():
     """The one table, `{name: Table}`."""
-    return {"micro_slip_instants": _micro_slip()}
-
-
-def digits(number, places):
-    """A number rounded to decimal places, without -0."""
-    return round(float(number), places) + 0.0
+    radii = ["contact_radius [a_max]", "stick_radius [a_max]"]
+    header = ["curve", "time [t_c]", *HERTZ_FORCES, VELOCITY, *radii]
+    return {"micro_slip_instants": table_files.table(header, _course, product(COURSES, INSTANTS))}
 
 
 @functools.cache
@@ -44,14 +42,6 @@ def by_springs():
         if change > most:
             raise SystemExit(f"{name} changes by {change:.1e}, more than {most:g}")
     return fine
-
-
-def _micro_slip():
-    rows = []
-    for x in COURSES:
-        rows += [functools.partial(_course, x, time) for time in INSTANTS]
-    radii = ["contact_radius [a_max]", "stick_radius [a_max]"]
-    return Table(["curve", "time [t_c]", *HERTZ_FORCES, VELOCITY, *radii], rows)
 
 
 def _course(x, time):

@@ -3,17 +3,14 @@
 python -m tests.reference_solutions.cross_tables data/cross2014
 """
 
-import csv
 import functools
 import sys
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from tests.reference_solutions.table_files import Table, write
+from tests.reference_solutions.table_files import read, table, write
 
-ROOT = Path(__file__).parents[2]
 # Standard deviation of what lies evenly between two bounds, over half their distance.
 EVENLY = 3**-0.5
 # A marker is read to two pixels; the author states that no component of a velocity is off by more
@@ -69,8 +66,7 @@ MARKERS = {
 
 def tables():
     """Every table by its name."""
-    impacts = range(1, 1 + len(_markers()))
-    return {"impacts": Table(HEADER, [functools.partial(_row, impact) for impact in impacts])}
+    return {"impacts": table(HEADER, _row, [(impact,) for impact in range(1, 1 + len(_markers()))])}
 
 
 def quantities(impact):
@@ -119,10 +115,9 @@ def _row(impact):
 def _markers():
     """Pixels of each marker, `{impact: {(panel, marker): (column, row)}}`."""
     found = {}
-    with open(ROOT / "data/cross2014/pixels.csv", newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            place = float(row["column"]), float(row["row"])
-            found.setdefault(int(row["impact"]), {})[row["panel"], row["marker"]] = place
+    for row in read("cross2014/pixels"):
+        place = float(row["column"]), float(row["row"])
+        found.setdefault(int(row["impact"]), {})[row["panel"], row["marker"]] = place
     return found
 
 

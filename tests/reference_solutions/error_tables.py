@@ -7,20 +7,17 @@ against the viscous and against the plastic one, data/inelastic_models/rebound_g
 are written anew from their definitions.
 """
 
-import csv
 import functools
 import math
 import sys
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from tests.reference_solutions import exact_tables, inelastic_tables, table_files, viscous_precision
 from tests.reference_solutions.exact_tables import BETA, ZETA2
-from tests.reference_solutions.table_files import Table
+from tests.reference_solutions.table_files import table
 
-DATA = Path(__file__).parents[2] / "data"
 LOSSES = ("viscous", "plastic")
 INCIDENCES = np.linspace(0.0, 8.0, 81)
 STEPS = (16, 64, 256)
@@ -64,17 +61,14 @@ def tables():
 
 
 def _rows(models, e, exact, ending):
-    return [
-        functools.partial(_row, f"{name}, e = {e:g}{ending}", model, e, exact)
-        for name, model in models.items()
-    ]
+    return [(f"{name}, e = {e:g}{ending}", model, e, exact) for name, model in models.items()]
 
 
 def _table(rows):
     columns = [
         f"{kind}_{name} [{unit}]" for name, unit in FIELDS.items() for kind in ("rms", "max")
     ]
-    return Table(["curve", "restitution [1]", *columns], rows)
+    return table(["curve", "restitution [1]", *columns], _row, rows)
 
 
 def _row(curve, model, e, exact):
@@ -93,21 +87,20 @@ def _row(curve, model, e, exact):
 
 def continuum():
     """The elastic continuum by annuli, from its table."""
-    return _grid(DATA / "elastic_continuum/rebound_grid.csv")
+    return _grid("elastic_continuum/rebound_grid")
 
 
 def lossy(loss, e=inelastic_tables.GRID_E):
     """The continuum of a loss by springs stepped through time, from its table."""
     curve = f"continuum.{loss}, e = {e:g}"
-    return _grid(DATA / "inelastic_models/rebound_grid.csv", curve)
+    return _grid("inelastic_models/rebound_grid", curve)
 
 
-def _grid(path, curve=None):
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = [row[-4:] for row in csv.reader(file) if curve in (None, row[0])]
-    numbers = np.array(rows if curve else rows[1:], float)
+def _grid(name, curve=None):
+    rows = [row for row in table_files.read(name) if row.get("curve") == curve]
+    numbers = np.array([list(row.values())[-4:] for row in rows], float)
     if not np.allclose(numbers[:, 0], INCIDENCES, rtol=0, atol=1e-12):
-        raise SystemExit(f"{path}: other incidences")
+        raise SystemExit(f"{name}: other incidences")
     return Answer(*numbers[:, 1:].T)
 
 

@@ -10,7 +10,7 @@ import sys
 from mpmath import mp
 
 from tests.reference_solutions import high_precision, table_files
-from tests.reference_solutions.table_files import Table
+from tests.reference_solutions.table_files import Table, table
 
 BETA, ZETA2 = 3.5, 1.21
 RUBBER = 1.5  # zeta^2 at Poisson's ratio 0.5
@@ -172,16 +172,13 @@ def _fig5():
     """Spheres of steel and of rubber, e = 1; also where the printed equations have no solution."""
     grid = {0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.25, 3.75, 4.0, 4.5, 5.0, 5.25, 5.5, 5.75}
     grid |= {0.0, 6.0, 6.5, 7.0, 8.0, 10.0, 12.0, 14.0}
-    rows = []
+    places = []
     for curve, zeta2 in (("lumped", ZETA2), ("lumped, rubber", RUBBER)):
-        at = set(grid)
-        for threshold in (zeta2, BETA, limit(BETA, zeta2, 1.0)):
-            at |= neighbours(threshold)
-        spins = curve == "lumped"
-        rows += [functools.partial(_sphere, curve, x, zeta2, spins) for x in sorted(at)]
-    for x in (5.85, 6.0, 6.25, 6.5, 6.75, 6.95):
-        rows.append(functools.partial(_sphere, "no solution as printed", x, ZETA2, False))
-    return Table(["curve", INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"], rows)
+        beside = map(neighbours, (zeta2, BETA, limit(BETA, zeta2, 1.0)))
+        places += [(curve, x, zeta2, curve == "lumped") for x in sorted(grid.union(*beside))]
+    unsolved = (5.85, 6.0, 6.25, 6.5, 6.75, 6.95)
+    places += [("no solution as printed", x, ZETA2, False) for x in unsolved]
+    return table(["curve", INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"], _sphere, places)
 
 
 def _sphere(curve, x, zeta2, spins):
@@ -203,8 +200,7 @@ SHOT_HEADER = [
 
 
 def _fig5_experiment():
-    rows = [functools.partial(_shot, angle) for angle in SHOT_ANGLES]
-    return Table(["curve", ANGLE, *SHOT_HEADER], rows)
+    return table(["curve", ANGLE, *SHOT_HEADER], _shot, [(angle,) for angle in SHOT_ANGLES])
 
 
 def _shot(angle):
@@ -234,18 +230,15 @@ def _fig6():
 
     At the same incidences also where the printed equations have no solution.
     """
-    rows = []
+    places = []
     for e in (0.0, 0.5, 1.0):
         top = limit(BETA, ZETA2, e)
-        grid = {0.25 * k for k in range(33)}
-        for threshold in (ZETA2, BETA, top):
-            grid |= neighbours(threshold)
-        rows += [functools.partial(_restitution, f"e = {e:g}", x, e, True) for x in sorted(grid)]
+        grid = {0.25 * k for k in range(33)}.union(*map(neighbours, (ZETA2, BETA, top)))
+        places += [(f"e = {e:g}", x, e, True) for x in sorted(grid)]
         unsolved = [x for x in sorted(grid) if e and top + 0.1 < x < (1 + e) * BETA]
-        curve = f"no solution as printed, e = {e:g}"
-        rows += [functools.partial(_restitution, curve, x, e, False) for x in unsolved]
+        places += [(f"no solution as printed, e = {e:g}", x, e, False) for x in unsolved]
     force, lost = "peak_friction_force [mu m2 Omega v2(0)]", "dissipation [mu^2 m2 v2(0)^2]"
-    return Table(["curve", INCIDENCE, VELOCITY, force, lost], rows)
+    return table(["curve", INCIDENCE, VELOCITY, force, lost], _restitution, places)
 
 
 def _restitution(curve, x, e, whole):
@@ -279,14 +272,12 @@ def fig7_angles(mu):
 
 
 def _fig7():
-    rows = []
+    places = []
     for mu in FRICTIONS:
-        for angle in fig7_angles(mu):
-            rows.append(functools.partial(_peak_force, f"mu = {mu:g}", mu, angle))
-        for angle in inside_angles(mu, *BEYOND_PRINTED):
-            curve = f"no solution as printed, mu = {mu:g}"
-            rows.append(functools.partial(_peak_force, curve, mu, angle))
-    return Table(["curve", ANGLE, "peak_force [m2 Omega S]"], rows)
+        curve, unsolved = f"mu = {mu:g}", inside_angles(mu, *BEYOND_PRINTED)
+        places += [(curve, mu, angle) for angle in fig7_angles(mu)]
+        places += [(f"no solution as printed, {curve}", mu, angle) for angle in unsolved]
+    return table(["curve", ANGLE, "peak_force [m2 Omega S]"], _peak_force, places)
 
 
 def _at_angle(mu, angle, e=1.0):
@@ -366,18 +357,15 @@ UNSOLVED_FIG9 = {
 
 
 def _fig9():
-    rows = []
+    places = []
     for (mu, e), unsolved in UNSOLVED_FIG9.items():
         top = limit(BETA, ZETA2, e)
         angles = {float(k) for k in range(5, 90, 5)} | set(threshold_angles(mu, ZETA2, BETA, top))
         pair = f"mu = {mu:g}, e = {e:g}"
-        for angle in sorted(angles):
-            rows.append(functools.partial(_dissipation, pair, mu, e, angle, True))
-        for angle in unsolved:
-            curve = f"no solution as printed, {pair}"
-            rows.append(functools.partial(_dissipation, curve, mu, e, angle, False))
+        places += [(pair, mu, e, angle, True) for angle in sorted(angles)]
+        places += [(f"no solution as printed, {pair}", mu, e, angle, False) for angle in unsolved]
     columns = ["friction_dissipation [m2 S^2/2]", "friction_work [m2 S^2/2]"]
-    return Table(["curve", ANGLE, *columns], rows)
+    return table(["curve", ANGLE, *columns], _dissipation, places)
 
 
 def _dissipation(curve, mu, e, angle, work):

@@ -5,15 +5,14 @@ python -m tests.reference_solutions.extreme_tables data/lumped_extremes
 Ten minutes of one core.
 """
 
-import csv
 import math
 import random
 import sys
-from pathlib import Path
+from functools import partial
 
 from mpmath import mp
 
-from tests.reference_solutions import high_precision
+from tests.reference_solutions import high_precision, table_files
 
 MOST_PHASES = 3000  # an impact of more would take minutes
 ULP = mp.mpf(2) ** -52
@@ -77,11 +76,11 @@ def points():
         for e_span in ((-4, -1), (-1, 0), 1.0):
             for beta_span in (1.0, (0, 1), (1, 6)):
                 beta, e = _draw(beta_span, dice), _draw(e_span, dice)
-                zeta2 = _rounded(e * e * beta / phases**2)
+                zeta2 = rounded(e * e * beta / phases**2)
                 if zeta2 >= 1e-8:
                     limit = thresholds(beta, zeta2, e)[2]
                     found += _incidences(beta, zeta2, e, dice, 1, 0)
-                    found.append((_rounded(limit * dice.random()), beta, zeta2, e))
+                    found.append((rounded(limit * dice.random()), beta, zeta2, e))
     found += _around_switches(dice)
     return [p for p in dict.fromkeys(found) if _phases(*p) <= MOST_PHASES]
 
@@ -143,11 +142,11 @@ def _solve(point, digits):
 def _incidences(beta, zeta2, e, dice, at_thresholds, elsewhere):
     """Impacts with these ratios: some at or beside a threshold, as many others."""
     places = thresholds(beta, zeta2, e)
-    chosen = [_neighbour(_one_of(places, dice), dice) for _ in range(at_thresholds)]
+    chosen = [_neighbour(one_of(places, dice), dice) for _ in range(at_thresholds)]
     for _ in range(elsewhere):
-        span = _one_of([*INCIDENCES, *FACTORS], dice)
+        span = one_of([*INCIDENCES, *FACTORS], dice)
         x = _draw(span, dice)
-        chosen.append(_rounded(x * max(places)) if span in FACTORS else x)
+        chosen.append(rounded(x * max(places)) if span in FACTORS else x)
     return [(x, beta, zeta2, e) for x in chosen]
 
 
@@ -175,25 +174,33 @@ def _switch(dice):
         Its place.
     """
     while True:
-        beta = _draw(_one_of([1.0, (0, 1), (0, 1), (1, 6)], dice), dice)
-        e = _draw(_one_of(SWITCH_RESTITUTIONS, dice), dice)
-        zeta2 = _rounded(beta * (e / _draw(_one_of(SWITCH_RATES, dice), dice)) ** 2)
-        x = _rounded(_one_of([zeta2, max(thresholds(beta, zeta2, e))], dice) * dice.random())
-        which = _one_of([0, 0, 0, 1, 2, RESTITUTION], dice)
+        beta = _draw(one_of([1.0, (0, 1), (0, 1), (1, 6)], dice), dice)
+        e = _draw(one_of(SWITCH_RESTITUTIONS, dice), dice)
+        zeta2 = rounded(beta * (e / _draw(one_of(SWITCH_RATES, dice), dice)) ** 2)
+        x = rounded(one_of([zeta2, max(thresholds(beta, zeta2, e))], dice) * dice.random())
+        which = one_of([0, 0, 0, 1, 2, RESTITUTION], dice)
         start = x, beta, zeta2, e
-        moved = _with(start, which, _rounded(start[which] * _one_of(MOVES, dice)))
+        moved = _with(start, which, rounded(start[which] * one_of(MOVES, dice)))
         below, above = sorted((start, moved))
         if not (_in_box(below) and _in_box(above)):
             continue
-        first = course(below)
-        if first == course(above):
+        if course(below) == course(above):
             continue
-        low, high = below[which], above[which]
-        while math.nextafter(low, high) < high:
-            middle = low + (high - low) / 2
-            same = course(_with(start, which, middle)) == first
-            low, high = (middle, high) if same else (low, middle)
+        low, high = bisected(below[which], above[which], partial(_course_of, start, which))
         return _with(start, which, low), _with(start, which, high), which
+
+
+def bisected(low, high, function):
+    """The two neighbouring numbers between which a function changes from its value at `low`."""
+    first = function(low)
+    while math.nextafter(low, high) < high:
+        middle = low + (high - low) / 2
+        low, high = (middle, high) if function(middle) == first else (low, middle)
+    return low, high
+
+
+def _course_of(point, which, value):
+    return course(_with(point, which, value))
 
 
 def course(point):
@@ -216,21 +223,21 @@ def _draw(span, dice):
     """A special value as it is, or one drawn from a span of logarithms."""
     if isinstance(span, float):
         return span
-    return _rounded(10 ** (span[0] + (span[1] - span[0]) * dice.random()))
+    return rounded(10 ** (span[0] + (span[1] - span[0]) * dice.random()))
 
 
-def _rounded(value):
+def rounded(value):
     """Six digits: the same on every machine, and short in the table."""
     return float(f"{value:.6g}")
 
 
-def _one_of(values, dice):
+def one_of(values, dice):
     return values[int(len(values) * dice.random())]
 
 
 def _neighbour(value, dice):
     """The number itself or the next one on either side."""
-    return _one_of([value, math.nextafter(value, 0), math.nextafter(value, math.inf)], dice)
+    return one_of([value, math.nextafter(value, 0), math.nextafter(value, math.inf)], dice)
 
 
 def _phases(x, beta, zeta2, e):
@@ -240,13 +247,10 @@ def _phases(x, beta, zeta2, e):
     return 0 if sliding else e * math.sqrt(beta / zeta2) * math.asin(amplitude) * 2 / math.pi
 
 
-def main(folder):
-    rows = [row(point) for point in points()]
-    with open(Path(folder) / "impacts.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(HEADER)
-        writer.writerows(rows)
+def tables():
+    """`{name: Table}`."""
+    return {"impacts": table_files.table(HEADER, row, [(point,) for point in points()])}
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    table_files.write(sys.argv[1], tables())

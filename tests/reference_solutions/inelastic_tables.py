@@ -3,10 +3,9 @@
 python -m tests.reference_solutions.inelastic_tables data/inelastic_models [table ...]
 """
 
-import csv
 import functools
 import sys
-from pathlib import Path
+from itertools import product
 
 import numpy as np
 import yaml
@@ -25,9 +24,8 @@ from tests.reference_solutions.exact_tables import (
     shot_columns,
 )
 from tests.reference_solutions.high_precision import rebound as exact_rebound
-from tests.reference_solutions.table_files import Table, write
+from tests.reference_solutions.table_files import DATA, digits, read, table, write
 
-ROOT = Path(__file__).parents[2]
 BETA = 3.5
 MODELS = [
     "continuum.viscous",
@@ -84,68 +82,34 @@ FIG9_ANGLES = {
 
 def tables():
     """Every table by its name."""
+    angles = [(mu, angle) for mu, angles in FIG9_ANGLES.items() for angle in angles]
+    rebound = ["curve", INCIDENCE, VELOCITY]
+    turned_round = "tangential_restitution [1]"
     return {
-        "rebound": Table(
-            ["curve", "incidence [mu v2(0)]", "velocity [mu v2(0)]"],
-            [functools.partial(_at_incidence, model, x) for model in MODELS for x in INCIDENCES],
+        "rebound": table(rebound, _at_incidence, product(MODELS, INCIDENCES)),
+        "rebound_grid": table([*rebound, *GRID_OUTPUTS], _on_grid, product(CONTINUA, GRID)),
+        "fitted_laws": table(rebound, _fitted, product(FITTED, FITTED_INCIDENCES)),
+        "superball": table(["curve", *PATH], _bounce, [(row,) for row in range(BOUNCES + 2)]),
+        "tangential_restitution": table(
+            ["curve", "restitution [1]", turned_round], _at_restitution, product(MODELS, NU, E)
         ),
-        "rebound_grid": Table(
-            ["curve", INCIDENCE, VELOCITY, *GRID_OUTPUTS],
-            [functools.partial(_on_grid, model, x) for model in CONTINUA for x in GRID],
+        "pairs": table(
+            ["curve", "pair", "restitution [1]", turned_round],
+            _of_pair,
+            product(MODELS, _pairs(), SPREADS),
         ),
-        "fitted_laws": Table(
-            ["curve", INCIDENCE, VELOCITY],
-            [functools.partial(_fitted, pair, x) for pair in FITTED for x in FITTED_INCIDENCES],
-        ),
-        "superball": Table(
-            ["curve", *PATH], [functools.partial(_bounce, row) for row in range(BOUNCES + 2)]
-        ),
-        "tangential_restitution": Table(
-            ["curve", "restitution [1]", "tangential_restitution [1]"],
-            [
-                functools.partial(_at_restitution, model, nu, e)
-                for model in MODELS
-                for nu in NU
-                for e in E
-            ],
-        ),
-        "pairs": Table(
-            ["curve", "pair", "restitution [1]", "tangential_restitution [1]"],
-            [
-                functools.partial(_of_pair, model, pair, spread)
-                for model in MODELS
-                for pair in _pairs()
-                for spread in SPREADS
-            ],
-        ),
-        "rubber_sphere": Table(
-            ["curve", INCIDENCE, "tangential_restitution [1]"],
-            [functools.partial(_of_rubber, *row) for row in _rubber_rows()],
-        ),
-        "rubber_rms": Table(
+        "rubber_sphere": table(["curve", INCIDENCE, turned_round], _of_rubber, _rubber_rows()),
+        "rubber_rms": table(
             ["curve", "incidence_limit [mu v2(0)]", *RUBBER_RMS],
-            [
-                functools.partial(_rubber_rms, model, limit)
-                for model in [*MODELS, ELASTIC]
-                for limit in RUBBER_LIMITS
-            ],
+            _rubber_rms,
+            product([*MODELS, ELASTIC], RUBBER_LIMITS),
         ),
-        "fig5_experiment": Table(
-            ["curve", ANGLE, *SHOT_HEADER],
-            [functools.partial(_shot, model, angle) for model in CONTINUA for angle in ANGLES],
-        ),
-        "fig6_rebound": Table(
-            ["curve", INCIDENCE, VELOCITY],
-            [functools.partial(_fig6, model, x) for model in CONTINUA for x in FIG6_INCIDENCES],
-        ),
-        "fig9_dissipation": Table(
+        "fig5_experiment": table(["curve", ANGLE, *SHOT_HEADER], _shot, product(CONTINUA, ANGLES)),
+        "fig6_rebound": table(rebound, _fig6, product(CONTINUA, FIG6_INCIDENCES)),
+        "fig9_dissipation": table(
             ["curve", ANGLE, "friction_dissipation [m2 S^2/2]"],
-            [
-                functools.partial(_fig9, model, mu, angle)
-                for model in CONTINUA
-                for mu, angles in FIG9_ANGLES.items()
-                for angle in angles
-            ],
+            _fig9,
+            [(model, *place) for model in CONTINUA for place in angles],
         ),
     }
 
@@ -293,11 +257,6 @@ def _fig9(model, mu, angle):
     return [f"{model}, mu = {mu:g}, e = {FIGURES_E:g}", angle, digits(lost, 6)]
 
 
-def digits(number, places):
-    """A number rounded to decimal places, without -0."""
-    return round(float(number), places) + 0.0
-
-
 def _at_incidence(model, x):
     w = velocities(model, [x], like(CONTACT_NU), CONTACT_E)[0]
     return [f"{model}, e = {CONTACT_E:g}", x, round(float(w), 5)]
@@ -363,10 +322,8 @@ def _rubber_impacts():
     that of the spin: friction gives the contact point 7/2 of the one and 7/5 of the other.
     """
     friction = _parameters("cross2014")["friction"]["value"]
-    with open(ROOT / "data/cross2014/impacts.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
     found = []
-    for row in rows:
+    for row in read("cross2014/impacts"):
         number = {key.partition(" [")[0]: cell for key, cell in row.items()}
         before, e, e_t, ratio, spin = (
             float(number[key])
@@ -400,13 +357,12 @@ def _rubber_stated():
 
 @functools.cache
 def _pairs():
-    with open(ROOT / "data/cornell1999/pairs.csv", newline="", encoding="utf-8") as file:
-        return {row["pair"]: row for row in csv.DictReader(file)}
+    return {row["pair"]: row for row in read("cornell1999/pairs")}
 
 
 @functools.cache
 def _parameters(source):
-    text = (ROOT / "data" / source / "source.yaml").read_text(encoding="utf-8")
+    text = (DATA / source / "source.yaml").read_text(encoding="utf-8")
     return yaml.safe_load(text)["parameters"]
 
 

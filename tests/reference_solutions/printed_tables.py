@@ -21,7 +21,7 @@ from tests.reference_solutions.exact_tables import (
     ZETA2,
     inside_angles,
 )
-from tests.reference_solutions.table_files import Table
+from tests.reference_solutions.table_files import table
 
 # Offset from the start of stick at which |F1| < mu F2 surely, in units of 1/Omega: the two are
 # equal there with equal slopes, and the search for where they are equal again starts behind it.
@@ -40,29 +40,28 @@ def tables():
 
 def _fig6():
     """From 3 to beta at e = 0.5 the last slip goes forward, and the paper has it backward."""
-    rows = []
-    for x in (3.05, 3.1, 3.15, 3.2, 3.25, 3.3, 3.35, 3.4, 3.45):
-        rows.append(functools.partial(_rebound, "as printed, e = 0.5", x, 0.5))
-    return Table(["curve", INCIDENCE, VELOCITY], rows)
+    incidences = (3.05, 3.1, 3.15, 3.2, 3.25, 3.3, 3.35, 3.4, 3.45)
+    return table(["curve", INCIDENCE, VELOCITY], _rebound, [(x, 0.5) for x in incidences])
 
 
-def _rebound(curve, x, e):
-    return [curve, x, impact(x, e).velocity]
+def _rebound(x, e):
+    return [f"as printed, e = {e:g}", x, impact(x, e).velocity]
 
 
 def _fig7():
     """From x = beta to the largest for which Eq. 21 has a root: Eq. 32 where t2 > tc."""
-    rows = []
-    for mu in exact_tables.FRICTIONS:
-        for angle in inside_angles(mu, 3.6, 4.0, 4.4, 4.8, 5.2, 5.5, 5.7):
-            rows.append(functools.partial(_peak_force, f"as printed, mu = {mu:g}", mu, angle))
-    return Table(["curve", ANGLE, "peak_force [m2 Omega S]"], rows)
+    places = [
+        (mu, angle)
+        for mu in exact_tables.FRICTIONS
+        for angle in inside_angles(mu, 3.6, 4.0, 4.4, 4.8, 5.2, 5.5, 5.7)
+    ]
+    return table(["curve", ANGLE, "peak_force [m2 Omega S]"], _peak_force, places)
 
 
-def _peak_force(curve, mu, angle):
+def _peak_force(mu, angle):
     theta = mp.radians(angle)
     printed = impact(mp.tan(theta) / mp.mpf(mu), 1.0)
-    return [curve, angle, mp.mpf(mu) * mp.cos(theta) * printed.peak]
+    return [f"as printed, mu = {mu:g}", angle, mp.mpf(mu) * mp.cos(theta) * printed.peak]
 
 
 PRINTED_FIG9 = {
@@ -77,18 +76,16 @@ PRINTED_FIG9 = {
 
 
 def _fig9():
-    rows = []
-    for (mu, e), angles in PRINTED_FIG9.items():
-        curve = f"as printed, mu = {mu:g}, e = {e:g}"
-        rows += [functools.partial(_dissipation, curve, mu, e, angle) for angle in angles]
-    return Table(["curve", ANGLE, "friction_dissipation [m2 S^2/2]"], rows)
+    places = [(*pair, angle) for pair, angles in PRINTED_FIG9.items() for angle in angles]
+    return table(["curve", ANGLE, "friction_dissipation [m2 S^2/2]"], _dissipation, places)
 
 
-def _dissipation(curve, mu, e, angle):
+def _dissipation(mu, e, angle):
     theta = mp.radians(angle)
     lost = impact(mp.tan(theta) / mp.mpf(mu), e).dissipation
     # 2 D1/(mu^2 m2 v2(0)^2) to 2 D1/(m2 S^2)
-    return [curve, angle, (mp.mpf(mu) * mp.cos(theta)) ** 2 * lost]
+    scale = (mp.mpf(mu) * mp.cos(theta)) ** 2
+    return [f"as printed, mu = {mu:g}, e = {e:g}", angle, scale * lost]
 
 
 class Printed:

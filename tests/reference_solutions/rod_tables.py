@@ -11,6 +11,7 @@ positive. Units: v2(0), 1/Omega and m2, the normal effective mass.
 import functools
 import math
 import sys
+from itertools import product
 
 from tests.reference_solutions import table_files
 from tests.reference_solutions.noncollinear_integration import Contact
@@ -39,11 +40,10 @@ FORCES = ["normal_force [m2 Omega v2(0)]", "friction_force [m2 Omega v2(0)]"]
 
 def tables():
     """All tables, `{name: Table}`."""
-    rebound = []
-    for ratio in RATIOS:
-        rebound += [functools.partial(_compliant, ratio, tilt) for tilt in TILTS]
-        for law in ("rigid", "rigid, Newton"):
-            rebound += [functools.partial(_rigid, law, ratio, tilt) for tilt in TILTS]
+    laws, rebound = ("", "rigid", "rigid, Newton"), []
+    for ratio, law in product(RATIOS, laws):
+        solve = functools.partial(_rigid, law) if law else _compliant
+        rebound += [functools.partial(solve, ratio, tilt) for tilt in TILTS]
     columns = [*VELOCITIES, "kinetic_energy [K0]", "jams [1]", *ENERGIES]
     header = ["time [1/Omega]", *FORCES, *VELOCITIES]
     events, instants = [], []
@@ -92,7 +92,7 @@ class Rod:
 
 
 def _rounded(cells):
-    return [round(float(cell), DIGITS) + 0.0 for cell in cells]
+    return [table_files.digits(cell, DIGITS) for cell in cells]
 
 
 # With compliance -----------------------------------------------------------------------------

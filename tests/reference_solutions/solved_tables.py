@@ -8,16 +8,14 @@ velocity of a contact point, what an impulse there does to velocity and spin, th
 that is lost. Nothing is taken from the package.
 """
 
-import csv
 import sys
 from pathlib import Path
 from typing import NamedTuple
 
 from mpmath import mp
 
-from tests.reference_solutions import inelastic_contact
+from tests.reference_solutions import inelastic_contact, table_files
 
-ROOT = Path(__file__).parents[2]
 SCENES = ("shot_peening", "billiard_cushion", "superball")
 WORKING_DIGITS, DIGITS = 50, 14
 # Of the second code; solved with half of each too, and extrapolated.
@@ -32,8 +30,7 @@ UNITS = {"velocity": "m/s", "spin": "rad/s"}
 
 def scene_table(name, step=1):
     """Every `step`-th impact of a scene: header, and rows of text."""
-    with open(ROOT / f"data/scenes/{name}.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))[::step]
+    rows = table_files.read(f"scenes/{name}")[::step]
     with mp.workdps(WORKING_DIGITS):
         impacts = [_Impact({key.split(" [")[0]: text for key, text in row.items()}) for row in rows]
         groups = [impact.groups for impact in impacts]
@@ -237,13 +234,14 @@ def _text(value):
     return value if isinstance(value, str) else mp.nstr(value, DIGITS)
 
 
-def main(data):
-    for name in SCENES:
-        header, rows = scene_table(name)
-        path = Path(data) / f"scenes_solved/{name}.csv"
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            csv.writer(file, lineterminator="\n").writerows([header, *rows])
+def tables():
+    """Every scene by its name."""
+    solved = {name: scene_table(name) for name in SCENES}
+    return {
+        name: table_files.table(header, lambda *cells: cells, rows)
+        for name, (header, rows) in solved.items()
+    }
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    table_files.write(Path(sys.argv[1]) / "scenes_solved", tables())

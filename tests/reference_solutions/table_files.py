@@ -1,11 +1,13 @@
 """Tables of reference values as files: what the generators of data/ share."""
 
 import csv
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from mpmath import mp
 
+DATA = Path(__file__).parents[2] / "data"
 DIGITS = 50  # carried
 
 
@@ -28,6 +30,16 @@ class Table(NamedTuple):
             return [_text(cell) for cell in self.rows[row]()]
 
 
+def table(header, function, places):
+    """The table whose rows are what a function returns at each of some places, its arguments."""
+    return Table(header, [partial(function, *place) for place in places])
+
+
+def digits(number, places):
+    """A number rounded to decimal places, without -0."""
+    return round(float(number), places) + 0.0
+
+
 def _text(cell):
     if cell is None:
         return ""
@@ -45,6 +57,12 @@ def write(folder, tables):
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(table.header)
             writer.writerows(table.cells(row) for row in range(len(table.rows)))
+
+
+def read(name):
+    """Rows of a file of data/ by its name without an ending, each with its cells by column."""
+    with open(DATA / f"{name}.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
 
 
 def differing(path, table, every=1, last_place=0.0):

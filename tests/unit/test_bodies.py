@@ -1,14 +1,14 @@
-"""Bodies and materials: known values, limits, conservation laws, refusals."""
+"""Bodies and materials: known values, limits, conservation laws."""
 
-import collections
 import pickle
 
 import numpy as np
 import pytest
 from scipy.special import beta
 
-from planarimpact import InputError, bodies, lumped
+from planarimpact import bodies, lumped
 from planarimpact.bodies import HALF_SPACE, Body, Material, Motion
+from tests.reference_solutions.inelastic_contact import motion_with, plastic_motion
 
 CERAMIC, GLASS = Material(380e9, 0.23), Material(70e9, 0.25)
 STEEL_BALL = bodies.solid_sphere(0.0127, 7800.0)
@@ -61,11 +61,6 @@ def test_dissimilar_materials():
     )
 
 
-def test_effective_radius():
-    assert bodies.effective_radius(0.02) == 0.02
-    assert bodies.effective_radius(0.02, [0.02, np.inf]) == pytest.approx([0.01, 0.02], rel=1e-14)
-
-
 @pytest.mark.parametrize("speed", [1e-200, 1e-3, 1.0, 1e200])
 def test_the_groups_do_not_depend_on_the_scale_of_speed(speed):
     x = bodies.incidence(3 * speed, 2 * speed, 0.1)
@@ -113,30 +108,15 @@ def test_rebound_balances_energy_and_momentum(body, spin, w, e):
     assert energy(before) - energy(after) == pytest.approx(loss, rel=1e-12)
 
 
-@pytest.mark.parametrize("tangential_restitution", [0.4, 5 / 7, 0.9])
-def test_tangential_restitution_of_the_centre_of_a_sphere(tangential_restitution):
-    x = bodies.incidence(1.5, 2.0, 0.2)
-    w = x * (3.5 * tangential_restitution - 2.5)
-    after = bodies.rebound_motion(STEEL_BALL, Motion(1.5, 2.0, 0.0), 0.2, w, 1.0)
-    assert after.tangential == pytest.approx(1.5 * tangential_restitution, rel=1e-13)
-
-
-def test_rolling_and_backspin():
-    assert bodies.contact_velocity(2.0, 1.0, -2.0 / 0.05, 0.05)[0] == 0
-    assert bodies.contact_velocity(2.0, 1.0, 10.0, 0.05)[0] > 2.0
-
-
-def test_hertz_peak_force_against_integration():
-    mass, speed, modulus, radius = 0.067, 0.05, 115e9, 0.0127
-    stiffness = 4 / 3 * modulus * np.sqrt(radius)
-    step, depth, velocity, peak = 2e-8, 0.0, speed, 0.0
-    while velocity > 0:  # leapfrog to maximum compression
-        depth += step * velocity / 2
-        force = stiffness * depth**1.5
-        velocity -= step * force / mass
-        depth += step * velocity / 2
-        peak = max(peak, force)
-    assert bodies.hertz_peak_force(mass, speed, modulus, radius) == pytest.approx(peak, rel=1e-5)
+@pytest.mark.parametrize("groups", [(1.0, 1.5, 0.0), (3.5, 1.21, 0.5), (20.0, 1e-4, 1.0)])
+@pytest.mark.parametrize("mu", [1e-300, 1e-12, 1e-3])
+def test_without_friction_nothing_changes(groups, mu):
+    beta, zeta2, e = groups
+    body, v1 = Body(1.0, 1.0, np.sqrt(beta - 1)), 3.0
+    w = lumped.rebound(bodies.incidence(v1, 1.0, mu), bodies.mass_ratio(body), zeta2, e).velocity
+    after = bodies.rebound_motion(body, Motion(v1, 1.0, 0.0), mu, w, e)
+    v1_after, _ = bodies.contact_velocity(after.tangential, 1.0, after.spin, body.radius)
+    assert abs(v1_after - v1) <= (1 + e) * beta * mu + 1e-14 * beta * v1
 
 
 def test_arrays_broadcast():
@@ -149,6 +129,7 @@ def test_arrays_broadcast():
 
 
 STEEL = {"mass": 0.0327, "effective_modulus": 115e9, "effective_radius": 0.01}
+RUBBER = {"mass": 0.3, "effective_modulus": 3e6, "effective_radius": 0.02}
 LAWS = {
     "viscous": (bodies.viscous_restitution, bodies.relaxation_time),
     "plastic": (bodies.plastic_restitution, bodies.yield_pressure),
@@ -183,6 +164,29 @@ def test_yield_begins_at_the_yield_speed():
     assert bodies.yield_pressure(1.0, speed, **STEEL) == pytest.approx(pressure, rel=1e-13)
 
 
+@pytest.mark.parametrize("ball", [STEEL, RUBBER], ids=["steel", "rubber"])
+@pytest.mark.parametrize(("speed", "e"), [(1e-3, 0.99), (30.0, 0.8), (0.7, 0.3), (1e-3, 0.05)])
+def test_restitution_and_force_are_those_of_the_motion(ball, speed, e):
+    """The motions by SciPy, in units of effective mass, modulus, radius and speed."""
+    mass, modulus, radius = ball.values()
+    length = (mass * speed**2 / (modulus * np.sqrt(radius))) ** 0.4
+    unit = modulus * np.sqrt(radius) * length**1.5
+    motions = {}
+    motions["viscous"], tau = motion_with("continuum.viscous", e)
+    motions["plastic"], yield_radius = motion_with("continuum.plastic", e)
+    materials = {"viscous": tau * length / speed}
+    materials["plastic"] = 2 / np.pi * modulus * yield_radius * np.sqrt(length / radius)
+    for loss, (law, inverse) in LAWS.items():
+        material = materials[loss]
+        assert law(speed, material, **ball) == pytest.approx(e, abs=1e-8)
+        assert inverse(e, speed, **ball) == pytest.approx(material, rel=1e-6)
+        found = bodies.peak_force(speed=speed, restitution=e, loss=loss, **ball)
+        assert found == pytest.approx(motions[loss].peak * unit, rel=1e-8)
+    elastic = plastic_motion(1.2)  # it never yields
+    found = bodies.hertz_peak_force(speed=speed, **ball)
+    assert elastic.restitution == pytest.approx(1) and found == pytest.approx(elastic.peak * unit)
+
+
 @pytest.mark.parametrize("loss", LAWS)
 def test_restitution_at_one_speed_gives_the_material_and_back(loss):
     law, inverse = LAWS[loss]
@@ -192,17 +196,7 @@ def test_restitution_at_one_speed_gives_the_material_and_back(loss):
     np.testing.assert_allclose(found, np.broadcast_to(e, (5, 3)), rtol=0, atol=1e-10)
     assert (np.diff(law(speed, inverse(0.7, 1.0, **STEEL), **STEEL)) < 0).all()
     assert bodies.relaxation_time(1.0, 2.0, **STEEL) == 0
-
-
-@pytest.mark.parametrize("loss", LAWS)
-def test_the_size_of_a_ball_does_not_matter_only_its_speed(loss):
-    """Mass grows with the third power of the radius; times grow with the radius."""
-    law, inverse = LAWS[loss]
-    material = inverse(0.7, 1.0, **STEEL)
-    if loss == "viscous":
-        material = 5 * material
-    large = {"mass": 125 * 0.0327, "effective_modulus": 115e9, "effective_radius": 5 * 0.01}
-    assert law(1.0, material, **large) == pytest.approx(0.7, abs=1e-10)
+    assert bodies.plastic_restitution(1, 1e300, **STEEL) == 1
 
 
 @pytest.mark.parametrize("loss", LAWS)
@@ -214,28 +208,11 @@ def test_peak_force_of_a_loss_begins_with_that_of_hertz(loss):
     assert 0.998 * hertz < force[2] < hertz
 
 
-def test_no_extreme_makes_an_elastic_impact_of_what_cannot_be_computed():
-    extreme = {"mass": 1e-300, "effective_modulus": 1e300, "effective_radius": 1e-300}
-    with pytest.raises(bodies.OutOfRange, match="beyond the range of numbers"):
-        bodies.plastic_restitution(1.0, 1e-300, **extreme)
-    extreme = {"mass": 1e300, "effective_modulus": 1e-300, "effective_radius": 1e-300}
-    with pytest.raises(bodies.OutOfRange, match="beyond the range of numbers"):
-        bodies.viscous_restitution(1e-300, 1.0, **extreme)
-    assert bodies.plastic_restitution(1.0, 1e300, **STEEL) == 1
-
-
 def test_a_relaxation_time_beyond_the_law_is_named_with_its_place():
-    with pytest.raises(bodies.OutOfRange, match="relaxation_time = 0.1: allowed are .* 0.022"):
-        bodies.viscous_restitution(1.0, [1e-7, 0.1], **STEEL)
     with pytest.raises(bodies.OutOfRange) as refusal:
         bodies.viscous_restitution(1.0, [[1e-7, 0.1], [0.2, 1e-7]], **STEEL)
     words = {i: message.partition(":")[0] for i, message in refusal.value.messages.items()}
     assert words == {1: "relaxation_time = 0.1", 2: "relaxation_time = 0.2"}
-
-
-def changed(body):
-    body.mass[0] = -1.0
-    return body
 
 
 def test_what_is_made_keeps_its_fields_as_given():
@@ -248,97 +225,10 @@ def test_what_is_made_keeps_its_fields_as_given():
             assert type(again) is type(made) and repr(again) == repr(made)
 
 
-@pytest.mark.parametrize(
-    "call, field, value",
-    [
-        (lambda: bodies.incidence(1.0, 1.0, 0.0), "friction", "0.0"),
-        (lambda: bodies.incidence(1.0, [1.0, -2.0], 0.1), "v2[1]", "-2.0"),
-        (lambda: bodies.incidence(1e200, 1e-200, 0.1), "incidence", "inf"),
-        (lambda: bodies.incidence_from_angle(1.0, 0.0), "friction", "0.0"),
-        (lambda: bodies.incidence_from_angle(90, 0.1), "theta_deg", "90.0"),
-        (lambda: bodies.incidence_from_angle(-120, 0.1), "theta_deg", "-120.0"),
-        (lambda: Body(0.0, 1.0, 1.0), "mass", "0.0"),
-        (lambda: Body("1", 1.0, 1.0), "mass", "'1'"),
-        (lambda: Body(1.0, -1.0, 1.0), "gyration", "-1.0"),
-        (lambda: Body(1.0, 1.0, np.inf), "radius", "inf"),
-        (lambda: Body([np.inf, -1.0], 1.0, 1.0), "mass[1]", "-1.0"),
-        (lambda: GLASS._replace(young_modulus=-1.0), "young_modulus", "-1.0"),
-        (lambda: Material._make([1e9, -1.0]), "poisson_ratio", "-1.0"),
-        (lambda: Motion(0.0, 1.0, np.nan), "spin", "nan"),
-        (lambda: Motion(np.inf, 1.0, 0.0), "tangential", "inf"),
-        (lambda: bodies.mass_ratio(changed(Body(np.ones(2), 1.0, 1.0))), "body.mass[0]", "-1.0"),
-        (lambda: bodies.mass_ratio(HALF_SPACE), "body.mass", "inf"),
-        (lambda: bodies.mass_ratio(3.5), "body", "3.5"),
-        (lambda: Material(1e9, 0.51), "poisson_ratio", "0.51"),
-        (lambda: Material(0, 0.3), "young_modulus", "0.0"),
-        (lambda: bodies.solid_sphere(-0.1, 1.0), "radius", "-0.1"),
-        (lambda: bodies.hertz_peak_force(1.0, 0.0, 1e9, 0.1), "speed", "0.0"),
-        (lambda: bodies.normal_frequency(1.0, 1.0, np.nan), "speed", "nan"),
-        (lambda: bodies.viscous_restitution(1, -1e-6, **STEEL), "relaxation_time", "-1e-06"),
-        (lambda: bodies.viscous_restitution(0, 1e-6, **STEEL), "speed", "0.0"),
-        (lambda: bodies.plastic_restitution(1, 0, **STEEL), "yield_pressure", "0.0"),
-        (lambda: bodies.yield_speed(np.inf, **STEEL), "yield_pressure", "inf"),
-        (lambda: bodies.relaxation_time(1.1, 1.0, **STEEL), "restitution", "1.1: allowed are num"),
-        (lambda: bodies.yield_pressure([1, 0.02], 1, **STEEL), "restitution[1]", "0.02: allowed"),
-        (
-            lambda: bodies.peak_force(speed=1, restitution=0.0, loss="viscous", **STEEL),
-            "restitution",
-            "0.0: allowed are numbers from 0.022 to 1",
-        ),
-        (
-            lambda: bodies.peak_force(speed=1, restitution=0.5, loss="magic", **STEEL),
-            "loss",
-            "'magic': allowed are viscous, plastic",
-        ),
-        (
-            lambda: bodies.rebound_motion(STEEL_BALL, Motion(1, 0, 0), 0.1, 0, 1),
-            "motion.normal",
-            "0.0",
-        ),
-        (
-            lambda: bodies.rebound_motion(STEEL_BALL, Motion(1, 1, 0), 0.0, 0, 1),
-            "friction",
-            "0.0",
-        ),
-    ],
-)
-def test_refusals_name_the_field_and_its_value(call, field, value):
-    with pytest.raises(InputError) as refusal:
-        call()
-    assert str(refusal.value).startswith(f"{field} = {value}")
-
-
-OTHERS = [
-    [True, 2.0],
-    (0.5, np.False_),
-    [[1.0, 2.0], [3, False]],
-    [np.array([True]), np.array([2.0])],
-    collections.deque([True, 2.0]),
-    np.array([True, 2.0], dtype=object),
-    bytearray(b"12"),
-    memoryview(b"12"),
-    [bytearray(b"12")],
-]
-
-
-@pytest.mark.parametrize("value", OTHERS, ids=lambda value: type(value).__name__)
-def test_booleans_and_bytes_are_no_numbers_beside_numbers_either(value):
-    with pytest.raises(InputError, match="incidence = .*: allowed are finite .*, as real numbers"):
-        lumped.rebound(value)
-
-
 @pytest.mark.parametrize("value", [10**20, [10**20, 1.5], [[-(10**300), 1]], range(3)])
 def test_whole_numbers_are_numbers_if_a_float_can_hold_them(value):
     numbers = np.array(value, dtype=float)
     np.testing.assert_array_equal(lumped.rebound(value).velocity, lumped.rebound(numbers).velocity)
-    for large in (10**400, [1, -(10**400)]):
-        with pytest.raises(InputError, match="incidence: an integer is beyond the range of numb"):
-            lumped.rebound(large)
-
-
-def test_shapes_that_do_not_broadcast_are_refused():
-    with pytest.raises(InputError, match="v1 .3,., v2 .2,."):
-        bodies.incidence(np.ones(3), np.ones(2), 0.1)
 
 
 def test_a_result_out_of_range_is_pickled_with_its_place():
@@ -359,3 +249,12 @@ def test_dundurs_constant_is_that_of_the_text_books():
     stated = (g2 * (1 - 0.6) - g1 * (1 - 0.5)) / (g2 * (1 - 0.3) + g1 * (1 - 0.25)) / 2
     assert bodies.dundurs(steel, glass) == pytest.approx(stated)
     assert bodies.dundurs(glass, steel) == -bodies.dundurs(steel, glass)
+
+
+def test_stated_facts_of_other_sources():
+    """chi of Maw's pucks (nu = 0.28) and the frequency ratio of rubber (Johnson)."""
+    steel = Material(2e11, 0.28)
+    chi = bodies.mass_ratio(bodies.disc(0.02, 1.0)) / (2 * bodies.stiffness_ratio(steel))
+    assert chi == pytest.approx(1.2558, abs=5e-5)
+    rubber = bodies.stiffness_ratio(Material(1e6, 0.5))
+    assert np.sqrt(3.5 / rubber) == pytest.approx(1.53, abs=0.005)

@@ -1,50 +1,17 @@
-"""The elastic continuum: exact limits, shapes, refusals."""
-
-import functools
+"""The continuum: many impacts, those without an answer, and the normal motion of spheres."""
 
 import numpy as np
 import pytest
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
 
-from planarimpact import ConvergenceError, InputError, Regime, continuum, lumped
-from planarimpact.continuum import annuli
+from planarimpact import ConvergenceError, continuum
+from planarimpact.continuum import annuli, inelastic
+from planarimpact.normal_impact import kelvin_voigt, yielding
 
+EXACT = {"rtol": 1e-11, "atol": 1e-13}
 # What is tested of them here does not depend on how exact they are.
 COARSE = {continuum.rebound: {"tolerance": 1e-3}, annuli.rebound: {"circles": 8, "steps": 64}}
-
-
-def test_slip_throughout_is_exact():
-    limit = lumped.slip_throughout_limit(3.5, 1.21)
-    x = np.array([limit, 6.0, 8.0, 1e6])
-    result = continuum.rebound(x)
-    np.testing.assert_array_equal(result.velocity, x - 7)
-    assert (result.regime == Regime.SLIP_THROUGHOUT).all() and (result.peak_friction == 1).all()
-
-
-def test_nothing_happens_at_normal_incidence():
-    assert continuum.rebound(0.0) == (0.0, 0.0, 0.0, Regime.STICK, 0)
-    assert annuli.rebound(0.0, circles=4, steps=8) == (0.0, 0.0, 0.0, Regime.STICK, 0)
-
-
-def test_gross_slip_to_maximum_compression_has_full_friction():
-    assert (continuum.rebound([3.5, 4.5, 5.5], tolerance=1e-4).peak_friction == 1).all()
-
-
-def test_the_limit_of_slip_throughout_is_crossed_without_a_jump():
-    below = continuum.rebound(np.nextafter(5.79, 0), tolerance=1e-8)
-    assert below.regime == Regime.SLIP_STICK_SLIP
-    assert abs(below.velocity - (5.79 - 7)) < 1e-8
-
-
-@pytest.mark.parametrize("solver", [continuum.rebound, annuli.rebound])
-def test_results_have_the_shape_of_the_arguments(solver):
-    solver = functools.partial(solver, **COARSE[solver])
-    result = solver([[0.5], [2.0], [-2.0]], 3.5, [1.21, 1.5])
-    assert all(field.shape == (3, 2) for field in result)
-    np.testing.assert_allclose(result.velocity[1], -result.velocity[2], atol=1e-12)
-    np.testing.assert_allclose(result.dissipation[1], result.dissipation[2], atol=1e-12)
-    alone = solver(2.0, 3.5, 1.5)
-    assert isinstance(alone.regime, Regime) and isinstance(alone.reversals, int)
-    assert alone.velocity == pytest.approx(result.velocity[1, 1], abs=1e-12)
 
 
 @pytest.mark.parametrize("solver", [continuum.rebound, annuli.rebound])
@@ -54,16 +21,6 @@ def test_many_impacts_are_solved_in_parts(solver, monkeypatch):
     monkeypatch.setattr(continuum.elastic, "CELLS", 100)
     monkeypatch.setattr(annuli, "CELLS", 2 * 8**2)
     np.testing.assert_allclose(solver(x, **coarse).velocity, whole.velocity, atol=1e-14)
-
-
-def test_history_ends_where_rebound_does():
-    for x in (0.0, 0.7, 2.5, -2.5, 7.0):
-        contact = continuum.history(x)
-        assert abs(contact.velocity[-1] - continuum.rebound(x, tolerance=1e-5).velocity) <= 1e-4
-        assert contact.velocity[0] == x and contact.time[0] == 0 and contact.time[-1] == 2
-        assert (np.diff(contact.time) > 0).all() and len(contact.time) >= 129
-        assert (contact.stick_radius <= contact.contact_radius).all()
-        assert contact.normal[-1] == contact.friction[-1] == 0
 
 
 def test_a_tolerance_out_of_reach_is_refused(monkeypatch):
@@ -86,47 +43,6 @@ def test_annuli_without_an_answer_say_so(monkeypatch):
     monkeypatch.setattr(annuli, "MOST_TRIALS", 1)
     with pytest.raises(ConvergenceError, match="no distribution of stick and slip over"):
         annuli.rebound(2.0)
-
-
-BAD = [
-    (lambda: continuum.rebound(np.nan), "incidence = nan"),
-    (lambda: continuum.rebound(1.0, 0.5), "mass_ratio = 0.5"),
-    (lambda: continuum.rebound(1.0, 3.5, 0.0), "stiffness_ratio = 0.0"),
-    (lambda: continuum.rebound(1.0, tolerance=0.0), "tolerance = 0.0: .* above 0"),
-    (lambda: continuum.history(1.0, tolerance=[1e-3, 1e-4]), r"tolerance, shape \(2,\)"),
-    (
-        lambda: continuum.rebound([1, 2, 3], tolerance=[1e-3, 1e-4]),
-        r"broadcast: .*tolerance \(2,\)",
-    ),
-    (lambda: continuum.rebound([1.0, 2.0], [3.0, 3.5, 4.0]), "shapes do not broadcast"),
-    (lambda: continuum.history([1.0, 2.0]), r"shape = \(2,\): one contact takes scalars"),
-    (lambda: annuli.rebound("fast"), "incidence = 'fast'"),
-    (lambda: annuli.rebound(1.0, circles=2.5), "circles = 2.5: allowed are integers from 1"),
-    (lambda: annuli.rebound(1.0, steps=1), "steps = 1: allowed are integers from 3"),
-    (lambda: annuli.rebound(1.0, 3.5, 1e-5), "steps = 512: allowed are integers from 1859"),
-]
-
-
-@pytest.mark.parametrize(("call", "words"), BAD, ids=[words for _, words in BAD])
-def test_bad_input_is_named(call, words):
-    with pytest.raises(InputError, match=words):
-        call()
-
-
-def test_groups_that_no_steps_resolve_are_refused_at_once():
-    for solve in (continuum.rebound, continuum.history):
-        with pytest.raises(ConvergenceError, match="stiffness_ratio = 1e-08 at mass_ratio = 3.5"):
-            solve(1e-9, 3.5, 1e-8)
-
-
-def test_dissipation_keeps_its_digits_at_huge_incidence():
-    for solver in (continuum.rebound, annuli.rebound):
-        assert solver(1e17).dissipation == pytest.approx(2e17, rel=1e-7)
-
-
-@pytest.mark.parametrize("x", [1.21, 1.2100001, 2.0, 5.7899999])
-def test_time_of_a_history_never_stands_still(x):
-    assert (np.diff(continuum.history(x, tolerance=1e-5).time) > 0).all()
 
 
 def test_a_solver_gone_wrong_gives_up_at_once(monkeypatch):
@@ -159,3 +75,80 @@ def test_impacts_without_an_answer_are_all_named(monkeypatch):
     with pytest.raises(continuum.Unsolved) as refused:
         continuum.rebound([0.5, 0.01, 3.0, 2.0], tolerance=1e-7)
     assert refused.value.impacts.tolist() == [0, 2, 3]
+
+
+@pytest.mark.parametrize("tau", [1e-4, 0.05, 0.3, 1.0, 3.0])
+def test_restitution_of_viscous_spheres_by_integration_in_time(tau):
+    """Kuwabara & Kono in loading, F = (4/3) D^(3/2) in unloading, by SciPy and in plain time."""
+
+    def force(d, v):
+        if v > 0:
+            return 4 / 3 * (max(d, 0) ** 1.5 + 1.5 * tau * max(d, 0) ** 0.5 * v)
+        return 4 / 3 * max(d + tau * v, 0.0) ** 1.5
+
+    def stop(event):
+        event.terminal, event.direction = True, -1
+        return event
+
+    def slopes(_, y):
+        return [y[1], -force(*y)]
+
+    # The first instants by a series: F is not differentiable at d = 0.
+    early = 1e-7
+    start = [early - 2 * tau * (4 / 15) * early**2.5, 1 - 2 * tau * (2 / 3) * early**1.5]
+    ends = stop(lambda _, y: y[1]), stop(lambda _, y: y[0] + tau * y[1])
+    loading = solve_ivp(slopes, (0, 50), start, events=ends[0], method="DOP853", **EXACT)
+    after = [loading.y[0, -1], 0.0]
+    unloading = solve_ivp(slopes, (0, 500), after, events=ends[1], method="DOP853", **EXACT)
+    found = kelvin_voigt.restitution(np.array([tau]))
+    assert found == pytest.approx(-unloading.y[1, -1], abs=1e-8)
+    back = kelvin_voigt.relaxation_time(found)
+    assert back == pytest.approx(tau, rel=1e-9)
+
+
+@pytest.mark.parametrize("loss", continuum.LOSSES)
+def test_the_normal_motion_obeys_newton_and_the_springs_carry_its_force(loss):
+    e = np.array([0.999999, 0.9, 0.6, 0.3, 0.1])
+    motion = inelastic.MOTIONS[loss](e)
+    motion.put_springs(np.linspace(0, 1, 2049)[:, None])
+    np.testing.assert_allclose(motion.velocity[-1], -e, atol=1e-11)
+    np.testing.assert_allclose(np.trapezoid(motion.force, motion.time, axis=0), 1 + e, atol=1e-6)
+    np.testing.assert_allclose(
+        np.cumsum(
+            (motion.velocity[1:] + motion.velocity[:-1]) / 2 * np.diff(motion.time, axis=0), 0
+        ),
+        motion.approach[1:],
+        atol=2e-6 * motion.approach.max(),
+    )
+    assert (np.diff(motion.time, axis=0) > 0).all()
+    for k in (100, 1500, 2048, 3000, 4000):
+        count = motion.edge(k) + 1
+        width = motion.width[:count].copy()
+        width[-1] = motion.edge_width[count - 1]
+        np.testing.assert_allclose(
+            2 * np.sum(width * motion.density(k), axis=0), motion.force[k], rtol=1e-4
+        )
+        place = motion.place(motion.velocity[k])
+        np.testing.assert_allclose(place, motion.edge(k) / 2048, atol=1e-8)
+
+
+@pytest.mark.parametrize("yield_velocity", [0.001, 0.05, 0.4, 0.99])
+def test_restitution_of_elastic_plastic_spheres_is_the_work_of_their_forces(yield_velocity):
+    """Thornton's closed form against the energies of loading and unloading, by quadrature."""
+    d_yield = (15 / 16 * yield_velocity**2) ** 0.4
+
+    def loading(d):
+        if d <= d_yield:
+            return 4 / 3 * d**1.5
+        # pi p_y with p_y = (2/pi) sqrt(d_y), the largest pressure of Hertz at d_y.
+        return 4 / 3 * d_yield**1.5 + 2 * np.sqrt(d_yield) * (d - d_yield)
+
+    def work(d):
+        return quad(loading, 0, d, points=[min(d_yield, d)], epsabs=1e-13, limit=200)[0]
+
+    largest = brentq(lambda d: work(d) - 0.5, 1e-3, 1e3, xtol=1e-13)
+    radius = 4 / 3 * largest**1.5 / loading(largest)  # R_p
+    back = quad(lambda z: 4 / 3 * np.sqrt(radius) * z**1.5, 0, largest / radius, epsabs=1e-13)[0]
+    found = yielding.restitution(np.array([yield_velocity]))
+    assert found == pytest.approx(np.sqrt(2 * back), abs=1e-9)
+    assert yielding.yield_velocity(found) == pytest.approx(yield_velocity, rel=1e-9)

@@ -65,15 +65,9 @@ def test_the_figures_of_the_paper_come_first(folder):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("shows:", "show:", "fig10/figure.yaml: top level: .*'show' was unexpected"),
-        (
-            "allowed: friction",
-            "allowed: frictoin",
-            "settings: allowed: 'frictoin' is no kind",
-        ),
-        ("shows:", "show:", "'show' was unexpected.; allowed are shows, caption"),
+        ("shows:", "show:", "fig10/figure.yaml: top level: .*'show' was .*; allowed are shows, "),
+        ("allowed: friction", "allowed: frictoin", "settings: allowed: 'frictoin' is no kind"),
         ("value: 0.5,", "", "settings.friction: 'value' is a required property"),
-        (", allowed: friction", "", "settings.friction: 'allowed' is a required property"),
         ("value: 0.5", "value: 50", "figure.yaml: settings: friction: 50 is greater than the max"),
         ("allowed: friction", "allowed: {type: nubmer}", "friction.allowed.type: 'nubmer' is not"),
         ("allowed: friction", "allowed: {minimun: 4}", "allowed: .*'minimun' was unexpected"),
@@ -81,7 +75,6 @@ def test_the_figures_of_the_paper_come_first(folder):
         ("value: 0.5, allowed: friction", "value: [1, 0], allowed: {ascending: true}", "larger th"),
         ("metric: distance", "metrik: distance", "comparisons.line-{e}: top level: .*allowed are"),
         ('curve: "e = {e}"', 'curve: "e = {f}"', "comparisons.line-{e}: `each` has no {f}"),
-        ("e: [0.5, 1]", "e: 0.5", "comparisons.line-{e}.each.e: 0.5 is not of type 'array'"),
         ("e: [0.5, 1]", "e: [1, 1]", "comparisons.line-{e}: 'line-1' stands twice"),
     ],
 )

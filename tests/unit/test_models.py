@@ -16,7 +16,6 @@ COARSE = {
     "annuli": {"circles": 6, "steps": 48},
 }
 MODELS = list(models.MODELS.values())
-ELASTIC = [model for model in MODELS if model.restitution == (1.0, 1.0)]
 # Incidence from which a model slides throughout, (1 + e) m2/m1 less what compliance holds.
 SLIDES_FROM = {
     "rigid": lambda beta, zeta2, e: (1 + e) * beta,
@@ -50,31 +49,24 @@ def admissible(model):
 
 
 @every_model
-def test_the_four_groups_go_by_position_or_name(model):
-    result = solve(model, X, 3.0, 1.3, 1.0)
-    named = model.rebound(
-        incidence=X,
-        mass_ratio=3.0,
-        stiffness_ratio=1.3,
-        restitution=1.0,
-        **COARSE.get(model.name, {}),
-    )
-    by_name = models.rebound(model.name, X, 3.0, 1.3, 1.0, **COARSE.get(model.name, {}))
-    for other in (named, by_name):
+def test_arguments_and_results_keep_the_convention(model):
+    result, groups = solve(model, X, 3.0, 1.3, 1.0), (3.0, 1.3, 1.0)
+    assert isinstance(result, Rebound) and result.regime.dtype == np.uint8
+    assert {np.shape(field) for field in result[:4]} == {X.shape}
+    settings = COARSE.get(model.name, {})
+    named = dict(zip(("mass_ratio", "stiffness_ratio", "restitution"), groups, strict=True))
+    for other in (
+        model.rebound(incidence=X, **named, **settings),
+        models.rebound(model.name, X, *groups, **settings),
+    ):
         for one, two in zip(result[:4], other[:4], strict=True):
             np.testing.assert_array_equal(one, two)
-
-
-@every_model
-def test_the_result_has_the_shape_of_the_groups(model):
-    result = solve(model, X, 3.0, 1.3, 1.0)
-    assert isinstance(result, Rebound)
-    assert {np.shape(field) for field in result[:4]} == {X.shape}
-    assert result.regime.dtype == np.uint8
     assert solve(model, X[:, :1], np.array([3.0, 3.5, 4.0]), 1.3, 1.0).velocity.shape == (2, 3)
-    assert solve(model, np.zeros((0, 2)), 3.0, 1.3, 1.0).velocity.shape == (0, 2)
-    alone = solve(model, 2.0, 3.0, 1.3, 1.0)
+    assert solve(model, np.zeros((0, 2)), *groups).velocity.shape == (0, 2)
+    alone = solve(model, 2.0, *groups)
     assert isinstance(alone.velocity, float) and isinstance(alone.regime, Regime)
+    assert alone.reversals is None or isinstance(alone.reversals, int)
+    assert alone.velocity == pytest.approx(result.velocity[0, 2], abs=1e-12)
 
 
 @every_model
@@ -84,6 +76,8 @@ def test_the_mirror_image_only_turns_the_velocity(model):
         np.testing.assert_array_equal(left.velocity, -right.velocity)
         for field in ("peak_friction", "dissipation", "regime"):
             np.testing.assert_array_equal(getattr(left, field), getattr(right, field))
+        at_rest = [right[0][0, 0], right[2][0, 0], right.regime[0, 0]]
+        assert at_rest == [0, 0, Regime.STICK] and not right.peak_friction[0, 0] > 0
 
 
 @every_model
@@ -108,12 +102,6 @@ def test_the_range_of_restitution_is_enforced(model):
             solve(model, 2.0, 3.0, 1.3, e)
 
 
-@pytest.mark.parametrize("model", ELASTIC, ids=lambda model: model.name)
-def test_an_elastic_model_refuses_hysteresis(model):
-    with pytest.raises(InputError, match="restitution = 0.5: allowed are numbers equal to 1, "):
-        solve(model, 2.0, 3.0, 1.3, 0.5)
-
-
 @pytest.mark.parametrize("name", SLIDES_FROM)
 @pytest.mark.parametrize("groups", [(3.5, 1.21), (1.0, 0.4), (8.0, 9.5), (2.7, 2.7)])
 def test_it_slides_throughout_from_its_limit_on_and_not_below(name, groups):
@@ -126,13 +114,11 @@ def test_it_slides_throughout_from_its_limit_on_and_not_below(name, groups):
         result = solve(model, x, beta, zeta2, e)
         np.testing.assert_array_equal(result.velocity, x - (1 + e) * beta)
         assert (result.regime[1:] == Regime.SLIP_THROUGHOUT).all()
+        assert (result.peak_friction[1:] == 1).all()
+        if e == 1:  # at huge incidence the dissipation keeps its digits
+            work = 2 * (x / 2 + result.velocity / 2)
+            np.testing.assert_allclose(result.dissipation, work, rtol=1e-7)
         assert solve(model, limit - 1e-6, beta, zeta2, e).regime != Regime.SLIP_THROUGHOUT
-
-
-@every_model
-def test_unknown_settings_are_refused(model):
-    with pytest.raises(InputError, match=rf"magic = 1: {model.name} has (no|the) settings"):
-        models.rebound(model.name, 2.0, magic=1)
 
 
 @every_model
@@ -151,20 +137,10 @@ def test_the_entry_says_what_the_model_is(model):
     assert model.name.split(".")[0] == solver.__module__.split(".")[-1]
 
 
-@pytest.mark.parametrize("name", ["magic", "", "Lumped", None])
-def test_an_unknown_name_is_refused(name):
-    with pytest.raises(InputError, match=f"model = {name!r}: allowed are rigid, .*annuli"):
-        models.get(name)
-
-
 def test_the_reference_is_a_continuum():
     assert models.reference(1, "plastic") == models.reference(1.0) == "continuum"
     for loss in ("viscous", "plastic"):
         assert models.reference(0.999, loss) == f"continuum.{loss}" in models.MODELS
-    with pytest.raises(InputError, match="loss = 'hysteretic': allowed are viscous, plastic"):
-        models.reference(0.5, "hysteretic")
-    with pytest.raises(InputError, match="restitution = 1.5"):
-        models.reference(1.5)
 
 
 @pytest.mark.parametrize("x", [0.5, 2.0, 4.0, 9.0])
@@ -182,15 +158,7 @@ def test_spread_of_uncertain_inputs_is_that_of_random_ones(x):
 def test_uncertain_restitution_keeps_to_what_a_model_admits():
     """It does not exceed 1, and the continuum with a loss ends at 0.1."""
     assert models.input_spread("lumped.hysteretic", 8.0) > 0
-    assert models.input_spread("continuum.viscous", 3.0, restitution=0.1, tolerance=1e-2) > 0
-
-
-def test_below_1_a_name_without_loss_is_refused_and_says_which_have_one():
-    for name, words in (("lumped", r"lumped.hysteretic \(the paper's\)"), ("continuum", r"c.*\.v")):
-        with pytest.raises(InputError, match=f"restitution = 0.8: .* name says what .*: {words}"):
-            models.rebound(name, 2.0, restitution=0.8)
-    with pytest.raises(InputError, match="restitution = 0.5: .* unless loss says"):
-        models.reference(0.5)
+    assert models.input_spread("continuum.viscous", 8.0, restitution=0.1) > 0
 
 
 def test_a_model_says_what_takes_its_energy():
@@ -202,16 +170,6 @@ def test_a_model_says_what_takes_its_energy():
 
 def two_lines(x, mass_ratio, stiffness_ratio, restitution, *, share=0.5):
     return np.maximum(x - (1 + restitution) * mass_ratio, -share * x)
-
-
-def rebound_of(**change):
-    """The rebound of the rigid model, with some fields changed by functions of them."""
-
-    def rebound(incidence, mass_ratio=3.5, stiffness_ratio=1.21, restitution=1.0):
-        result = models.rebound("rigid", incidence, mass_ratio, stiffness_ratio, restitution)
-        return result._replace(**{k: f(getattr(result, k)) for k, f in change.items()})
-
-    return rebound
 
 
 @pytest.fixture
@@ -228,37 +186,3 @@ def test_a_law_of_ones_own_is_a_model_like_others(own):
     brach = models.rebound("laws.brach", X, restitution=0.8, tangential_restitution=0.2)
     for name in ("velocity", "dissipation", "regime"):
         np.testing.assert_allclose(getattr(solved, name), getattr(brach, name), rtol=1e-13)
-    for name in ("own.two-lines", "rigid", "continuum.plastic"):
-        with pytest.raises(InputError, match=f"name = '{name}': allowed are names that no model"):
-            models.register(models.Model(name, own))
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"restitution": (0.5, 1.5)}, r"restitution\[1\] = 1.5: allowed are two numbers"),
-        ({"restitution": (1.0, 0.5)}, r"restitution = \(1.0, 0.5\): allowed are two numbers"),
-        ({"settings": {"part": 0.4}}, "restitution 0: it fails: TypeError: .*'part'"),
-        (
-            {"rebound": lambda incidence, *groups, **named: incidence},
-            "it gives ndarray: allowed is a Rebound, which laws",
-        ),
-        (
-            {"rebound": models.laws.of_velocity(lambda x, *groups: x[:1])},
-            r"InputError: velocities, shape \(1,\): allowed is that of the incidences, \(10,\)",
-        ),
-        ({"rebound": rebound_of(regime=np.ravel)}, r"regime, shape \(10,\): allowed .* \(2, 5\)"),
-        (
-            {"rebound": rebound_of(velocity=lambda w: w + 1)},
-            "velocity -4.5 at incidence -9: .* opp",
-        ),
-        ({"rebound": rebound_of(velocity=lambda w: -w)}, r"at incidence -9: .* m2/m1 = 3.5, the"),
-        ({"rebound": rebound_of(velocity=lambda w: w + np.inf)}, "at incidence -9: .* finite"),
-    ],
-)
-def test_what_is_no_model_is_refused(change, words, monkeypatch):
-    monkeypatch.setattr(models, "MODELS", dict(models.MODELS))
-    model = models.Model("own", models.laws.of_velocity(two_lines))
-    with pytest.raises(InputError, match=words):
-        models.register(model._replace(**change))
-    assert "own" not in models.MODELS

@@ -1,11 +1,12 @@
-"""The non-collinear model: bodies, refusals, limits, histories, and the rigid impulse beside it."""
+"""The non-collinear model: bodies, limits, histories, and the rigid impulse beside it."""
 
 from functools import partial
+from itertools import product
 
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Regime, noncollinear
+from planarimpact import Regime, noncollinear
 from planarimpact.bodies import Motion
 from planarimpact.ground.checks import ConvergenceError
 from planarimpact.noncollinear import InverseMass, rigid, solver, stick_end
@@ -20,14 +21,6 @@ ROD = {"mass": 2.0, "gyration": 1 / 12**0.5}  # of a metre
 def rod(degrees, mass=2.0):
     tilt = np.radians(degrees)
     return noncollinear.inverse_mass(mass, 12**-0.5, np.sin(tilt) / 2, np.cos(tilt) / 2)
-
-
-def test_effective_masses_are_those_of_the_paper():
-    mass, gyration, x1, x2 = 3.0, 0.5, 0.25, -1.0
-    found = noncollinear.inverse_mass(mass, gyration, offset=x1, depth=-x2)
-    m1 = mass * gyration**2 / (gyration**2 + x2**2)
-    m2 = mass * gyration**2 / (gyration**2 + x1**2)
-    np.testing.assert_allclose(found, (1 / m1, -x1 * x2 / (mass * gyration**2), 1 / m2))
 
 
 def test_motion_of_the_body_and_of_its_contact_point_agree():
@@ -69,66 +62,6 @@ def test_arguments_broadcast_and_scalars_stay_scalars():
         assert all(field.shape == (0, 2) for field in none)
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"normal": 0.0}, "normal = 0.0: allowed are finite numbers above 0 (approach)"),
-        ({"normal": -1.0}, "normal = -1.0"),
-        ({"tangential": np.nan}, "tangential = nan"),
-        ({"friction": -0.1}, "friction = -0.1: allowed are finite numbers from 0"),
-        ({"restitution": 1.5}, "restitution = 1.5"),
-        ({"stiffness_ratio": 0.0}, "stiffness_ratio = 0.0"),
-        ({"stiffness": [1.0, 0.0]}, "stiffness[1] = 0.0"),
-        ({"inverse_mass": (1.0, 0.0, 1.0)}, "inverse_mass = (1.0, 0.0, 1.0): allowed are Inverse"),
-        ({"inverse_mass": InverseMass(1.0, 1.0, 1.0)}, "inverse_mass.coupling = 1.0"),
-        ({"inverse_mass": InverseMass(0.0, 0.0, 1.0)}, "inverse_mass.tangential = 0.0"),
-        ({"tangential": 1e300, "normal": 1e-300}, "tangential/normal = inf"),
-        ({"friction": 1e51}, "friction = 1e+51"),
-        ({"tangential": [1.0, 2.0], "normal": [1.0, 1.0, 1.0]}, "shapes do not broadcast"),
-    ],
-)
-def test_bad_input_is_refused_by_name(change, words):
-    good = {"tangential": 1.0, "normal": 1.0, "inverse_mass": rod(20.0), "friction": 0.5}
-    for function in (noncollinear.rebound, noncollinear.history):
-        with pytest.raises(InputError) as caught:
-            function(**good | change)
-        assert words in str(caught.value)
-
-
-def test_bodies_and_samples_are_refused_by_name():
-    with pytest.raises(InputError, match="gyration = 0.0"):
-        noncollinear.inverse_mass(1.0, 0.0, 0.1, 0.1)
-    with pytest.raises(InputError, match="offset = inf"):
-        noncollinear.inverse_mass(1.0, 1.0, np.inf, 0.1)
-    with pytest.raises(InputError, match="samples = 1"):
-        paper_history(1.0, 1.0, rod(20.0), 0.5, samples=1)
-    with pytest.raises(InputError, match="one contact takes scalars"):
-        paper_history([1.0, 2.0], 1.0, rod(20.0), 0.5)
-    with pytest.raises(InputError, match="law = 'newton'.*kinematic"):
-        rigid.rebound(1.0, 1.0, rod(20.0), 0.5, law="newton")
-    with pytest.raises(InputError, match="law = .*kinematic"):
-        rigid.rebound(1.0, 1.0, rod(20.0), 0.5, law=np.array(["energetic", "kinetic"]))
-    with pytest.raises(InputError, match="first .2,., second .3,."):
-        noncollinear.combined(rod([1.0, 2.0]), rod([1.0, 2.0, 3.0]))
-    with pytest.raises(InputError, match="mass = 0.0"):
-        noncollinear.motion_after(Motion(0.0, 1.0, 0.0), (0.0, 1.0), 0.0, 1.0, 0.1, 0.1)
-    with pytest.raises(InputError, match="spin = nan"):
-        noncollinear.motion_after(Motion(0.0, 1.0, np.nan), (0.0, 1.0), 1.0, 1.0, 0.1, 0.1)
-
-
-def test_what_float64_cannot_hold_is_refused_by_name():
-    with pytest.raises(InputError, match="inverse_mass.tangential = inf"):
-        noncollinear.inverse_mass(1.0, 1e-200, 0.1, 0.1)
-    with pytest.raises(InputError, match="friction_work of the result is beyond float64"):
-        paper_rebound(1e200, 1e200, rod(20.0), 0.5)
-    with pytest.raises(InputError, match="kinetic energy of the result"):
-        noncollinear.kinetic_energy(1e200, 1.0, rod(20.0))
-    with pytest.raises(InputError, match="normal_force of the result"):
-        paper_history(1e200, 1e200, rod(20.0), 0.5, stiffness=1e250)
-    with pytest.raises(InputError, match="tangential of the result"):
-        rigid.rebound(1e200, 1e-200, rod(20.0), 0.5)
-
-
 @pytest.mark.parametrize("law", list(rigid.Law))
 def test_speed_and_mass_only_scale_the_rigid_impulse(law):
     a, c, b = rod(20.0)
@@ -149,20 +82,9 @@ def test_a_history_of_little_restitution_ends_at_separation(e):
     assert contact.tangential[-1] == pytest.approx(result.tangential, rel=1e-12)
 
 
-def test_energy_balances_however_rough_the_contact():
-    """The last slip begins at a normal force of the order 1/mu, at last below rounding."""
-    friction = 10.0 ** np.arange(1, 50)
-    for v1, mass, zeta2 in ((2.0, rod(30.0), 1.21), (-1.5, rod(-50.0), 20.0)):
-        result = paper_rebound(v1, 1.0, mass, friction, 0.6, zeta2)
-        before = noncollinear.kinetic_energy(v1, 1.0, mass)
-        after = noncollinear.kinetic_energy(result.tangential, result.normal, mass)
-        lost = result.friction_work + result.hysteresis
-        np.testing.assert_allclose(before - after, lost, atol=1e-12 * before)
-
-
 def test_impacts_that_rattle_on_are_named_and_the_others_answered(monkeypatch):
     """Friction holds the contact closed (mu C > 1), and the stiff unloading element rattles."""
-    monkeypatch.setattr(solver, "MOST_PHASES", 300)
+    monkeypatch.setattr(solver, "MOST_PHASES", 60)
     monkeypatch.setattr(noncollinear, "CHUNK", 2)
     settings = 1.0, InverseMass(1.0, 0.75, 1.0), 6.0, 1e-9, 20.0
     v1 = np.array([[0.0, 0.5], [0.0, 12.0]])
@@ -306,35 +228,35 @@ def test_laws_of_restitution_agree_where_slip_goes_on(law):
 
 
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("v1", [0.0, 0.3, 1.0, 3.0, -1.0])
-@pytest.mark.parametrize("friction", [0.0, 0.3, 1.6])
-def test_rigid_impulse_against_small_steps(law, v1, friction):
+def test_rigid_impulse_against_small_steps(law):
     """Velocities against the normal impulse, in small steps that know only Coulomb's law."""
     e, count = 0.7, 4_000
-    for degrees in (-50.0, -20.0, 25.0, 60.0):
-        a, c, b = rod(degrees)
-        result = rigid.rebound(v1, 1.0, rod(degrees), friction, e, law)
-        step = result.normal_impulse / count
-        velocity, normal, work, compression = v1, 1.0, [0.0, 0.0], None
-        for done in range(count):
-            share = np.sign(velocity) * friction
-            after = velocity - step * (share * a - c)
-            if velocity * after <= 0:  # at rest: held if friction can
-                share = np.clip((velocity / step + c) / a, -friction, friction)
-                after = velocity - step * (share * a - c)
-            middle = normal - step * (b - share * c) / 2
-            velocity, normal = after, normal - step * (b - share * c)
-            work[int(normal < 0)] += middle * step
-            if normal < 0 and compression is None:
-                compression = done * step
-        near = pytest.approx(result.tangential, abs=1e-3), pytest.approx(result.normal, abs=1e-3)
-        assert (velocity, normal) == near
-        if law == rigid.Law.ENERGETIC:
-            assert -work[1] == pytest.approx(e**2 * work[0], abs=1e-3)
-        elif law == rigid.Law.KINEMATIC:
-            assert result.normal == pytest.approx(-e, abs=1e-14)
-        else:
-            assert result.normal_impulse == pytest.approx((1 + e) * compression, abs=3e-3)
+    groups = product([-50.0, -20.0, 25.0, 60.0], [0.0, 0.3, 1.0, 3.0, -1.0], [0.0, 0.3, 1.6])
+    degrees, v1, friction = np.array([*groups]).T
+    a, c, b = rod(degrees)
+    result = rigid.rebound(v1, 1.0, rod(degrees), friction, e, law)
+    step = result.normal_impulse / count
+    velocity, normal = v1, np.ones(v1.size)
+    compression, taken, returned = np.zeros((3, v1.size))
+    for _ in range(count):
+        share = np.sign(velocity) * friction
+        after = velocity - step * (share * a - c)
+        # At rest it is held if friction can.
+        held = np.clip((velocity / step + c) / a, -friction, friction)
+        share = np.where(velocity * after <= 0, held, share)
+        middle = normal - step * (b - share * c) / 2
+        velocity, normal = velocity - step * (share * a - c), normal - step * (b - share * c)
+        compression += step * (normal > 0)
+        taken += np.where(normal > 0, middle * step, 0)
+        returned -= np.where(normal > 0, 0, middle * step)
+    np.testing.assert_allclose(velocity, result.tangential, atol=1e-3)
+    np.testing.assert_allclose(normal, result.normal, atol=1e-3)
+    if law == rigid.Law.ENERGETIC:
+        np.testing.assert_allclose(returned, e**2 * taken, atol=1e-3)
+    elif law == rigid.Law.KINEMATIC:
+        np.testing.assert_allclose(result.normal, -e, atol=1e-14)
+    else:
+        np.testing.assert_allclose(result.normal_impulse, (1 + e) * compression, atol=3e-3)
 
 
 def test_only_newtons_law_creates_energy():
@@ -372,17 +294,3 @@ def test_the_unloading_stiffness_stiffens_the_tangential_element_by_the_square_o
     assert stiffer.tangential != paper_rebound(0.2, 1.0, rod, 0.3, 0.6, 1.21).tangential
     history = noncollinear.history(0.2, 1.0, rod, 0.3, 0.6, 1.21, loss="unloading-stiffness")
     assert history.tangential[-1] == pytest.approx(stiffer.tangential, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("loss", "e", "words"),
-    [
-        (None, 0.5, "restitution = 0.5: .* 1, unless loss says .*: hysteretic"),
-        ("viscous", 0.5, "loss = 'viscous': allowed are hysteretic, unloading-stiffness"),
-        ("unloading-stiffness", 0.0, "restitution = 0: .* 'unloading-stiffness' allowed are .* 0"),
-    ],
-)
-def test_losses_that_do_not_make_sense_are_refused(loss, e, words):
-    rod = noncollinear.inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
-    with pytest.raises(InputError, match=words):
-        noncollinear.rebound(1.0, 1.0, rod, 0.3, e, 1.21, loss=loss)

@@ -16,21 +16,17 @@ def cubic(which, x):
     return 1 - ratio**3, -3 * ratio**2 / PLACES[which], -6 * ratio / PLACES[which] ** 2
 
 
-@pytest.mark.parametrize("known", [1, 2, 3])
+@pytest.mark.parametrize("known", [0, 1, 2, 3])
 @pytest.mark.parametrize("width", [1.0, 1 + 1e-9, 50.0])
 def test_places_are_right_to_rounding(known, width):
+    """By a sign alone, the value, or with derivatives."""
+
+    def function(which, x):
+        return cubic(which, x)[:known] or (np.where(x < PLACES[which], 1.0, -1.0),)
+
     with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
-        place = roots.crossing(
-            lambda which, x: cubic(which, x)[:known], np.zeros(PLACES.size), width * PLACES
-        )
+        place = roots.crossing(function, np.zeros(PLACES.size), width * PLACES)
     np.testing.assert_allclose(place, PLACES, rtol=3e-15)
-
-
-def test_a_sign_alone_is_enough():
-    place = roots.crossing(
-        lambda which, x: (np.where(x < PLACES[which], 1.0, -1.0),), 0 * PLACES, 3 * PLACES
-    )
-    np.testing.assert_allclose(place, PLACES, rtol=1e-14)
 
 
 def test_a_coarse_place_costs_few_turns():

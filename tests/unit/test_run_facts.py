@@ -1,13 +1,11 @@
-"""On what a run was made: this checkout, whatever git is told, and its jobs as far as known."""
+"""On what a run was made: this checkout, whatever git is told."""
 
 import shutil
 import subprocess
-from pathlib import Path
 
 import pytest
 
 from stronge1994.pages import run_facts
-from stronge1994.run import record
 
 
 def test_the_commit_is_that_of_the_folder_whatever_git_is_told(tmp_path, monkeypatch):
@@ -32,13 +30,3 @@ def test_the_commit_is_that_of_the_folder_whatever_git_is_told(tmp_path, monkeyp
     assert run_facts.commit(tmp_path / "ours/inside") == run_facts.NO_COMMIT
     (tmp_path / "ours/file").write_text("new")
     assert run_facts.commit(tmp_path / "ours") == f"{commits['ours']}, with uncommitted changes"
-
-
-def test_a_damaged_record_is_left_out(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path(record.FOLDER).mkdir(parents=True)
-    Path(record.path("good")).write_text('{"seconds": 1.5, "read": {}, "wrote": {}}')
-    assert record.read(record.path("good"))["seconds"] == 1.5
-    for text in ("", "{", "[]", '{"seconds": 1}'):
-        Path(record.path("bad")).write_text(text)
-        assert not record.read(record.path("bad"))

@@ -3,19 +3,24 @@
 import json
 import os
 import subprocess
-import sys
 import time
 
 import pytest
 
-from stronge1994 import plan, reference_data
+from stronge1994 import plan
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
-from tests.workflow import browser
+from tests.workflow import browser, node, project
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, Project, copy_of
 
 collect_ignore = ["toy"]  # a workflow for test_proof.py
+
+
+def pytest_sessionfinish():
+    """End the process that starts Snakemake."""
+    if project.starter.cache_info().currsize:
+        project.starter().communicate()
 
 
 def pytest_collection_modifyitems(items):
@@ -63,21 +68,9 @@ def finished(first_run, tmp_path):
 
 
 @pytest.fixture(scope="session")
-def interface(tmp_path_factory):
-    """Pages of the interface, as the target `site` makes them."""
-    folder = tmp_path_factory.mktemp("site") / "interface"
-    # In a process of its own: pdoc looks at what of the packages has been imported.
-    write = "import sys; from stronge1994.pages import interface; interface.write(*sys.argv[1:])"
-    command = [sys.executable, "-c", write, str(folder)]
-    subprocess.run(command, check=True, env=os.environ | {"PYTHONPATH": str(ROOT / "src")})
-    return folder
-
-
-@pytest.fixture(scope="session")
 def inventory():
     """All sources of data/. Do not change them."""
-    schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
-    return reference_data.load_all(ROOT / "data", schema)
+    return project.sources()
 
 
 @pytest.fixture(scope="session")
@@ -95,6 +88,13 @@ def explorer(tmp_path_factory, answers):
     text = write_explorer.page(plan.settings_of_explorer(config), sources, answers)
     path.write_text(text, encoding="utf-8")
     return path
+
+
+@pytest.fixture(scope="session")
+def scripts():
+    """The scripts of the explorer in node, which needs no browser. Do not change their state."""
+    with node.scripts() as found:
+        yield found
 
 
 @pytest.fixture(scope="module")

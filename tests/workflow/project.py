@@ -1,18 +1,95 @@
 """A copy of the project in a folder, in which Snakemake can be run."""
 
+import contextlib
+import functools
+import json
+import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
+import time
 from pathlib import Path
 
+from stronge1994 import reference_data
+from stronge1994.ledger import entries
+from stronge1994.plan import config as configuration
 from stronge1994.run import record
 
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
 PARTS += ["LICENSE", "CITATION.cff"]
 LEFT = ["results", "figures", ".snakemake"]  # by a run
-TIMEOUT = 3600  # s, of one run: against one that hangs, not against a busy machine
+TIMEOUT = 3600  # s, against a run that hangs, not against a busy machine
+
+
+@functools.cache
+def sources():
+    """All sources of data/. Do not change them."""
+    return reference_data.load_all(ROOT / "data", schema("source"))
+
+
+@functools.cache
+def schema(name):
+    """A schema of the workflow."""
+    return reference_data.load_yaml(ROOT / f"workflow/schemas/{name}.schema.yaml")
+
+
+@functools.cache
+def config():
+    """The config of the project, whole."""
+    return configuration.load(ROOT)
+
+
+@functools.cache
+def ledger():
+    """Entries of the ledger."""
+    return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema("ledger"))
+
+
+def checked(change, data=None, folder=ROOT):
+    """Check a change of the config as a start of Snakemake does, with other data if need be."""
+    changed = configuration.with_values(configuration.overridden(config(), change))
+    with contextlib.chdir(folder):
+        configuration.check_config(changed, data or sources(), ledger())
+
+
+class Run:
+    """Snakemake at work, with its own group of processes."""
+
+    def __init__(self, folder, arguments):
+        number, words = tempfile.mkstemp(prefix="words", dir=folder.parent)
+        os.close(number)
+        self.words = Path(words)
+        self.id = _asked("start", str(folder), arguments, words)
+
+    def wait_for(self, there):
+        """Wait until there is what this function looks for."""
+        deadline = time.monotonic() + TIMEOUT
+        while not there():
+            assert time.monotonic() < deadline and "Complete log" not in self.words.read_text()
+            time.sleep(0.01)
+
+    def ended(self):
+        """Wait for the end. Output and errors are one text, `stdout`."""
+        code = _asked("wait", self.id)
+        return subprocess.CompletedProcess([], code, self.words.read_text(encoding="utf-8"))
+
+
+@functools.cache
+def starter():
+    """The process that starts Snakemake, see started.py, as in an activated environment."""
+    command = [sys.executable, "-P", str(ROOT / "tests/workflow/started.py")]
+    activated = os.environ | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    return subprocess.Popen(command, env=activated, text=True, **pipes)
+
+
+def _asked(*question):
+    starter().stdin.write(json.dumps(question) + "\n")
+    starter().stdin.flush()
+    return int(starter().stdout.readline())
 
 
 class Project:
@@ -21,16 +98,13 @@ class Project:
     def __init__(self, folder):
         self.folder = folder
 
+    def start(self, *arguments):
+        """Start snakemake here, and do not wait for it."""
+        return Run(self.folder, ["--cores", "2", *arguments])
+
     def run(self, *arguments):
         """Run snakemake here; output and errors come back as one text in `stdout`."""
-        return subprocess.run(
-            [sys.executable, "-m", "snakemake", "--cores", "2", *arguments],
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=TIMEOUT,
-        )
+        return self.start(*arguments).ended()
 
     def refuses_to_pass(self, *arguments):
         """Run, and check that nothing says PASSED; what was printed."""
@@ -48,33 +122,16 @@ class Project:
         return result.stdout
 
     def planned(self, *arguments):
-        """Jobs that a run would do: `{message: reason}`, and how often each rule runs."""
-        result = self.run("--dry-run", "--quiet", "host", *arguments)
+        """How often each rule would run."""
+        result = self.run(*arguments, "--dry-run", "--quiet", "host")
         assert result.returncode == 0, result.stdout
-        words = result.stdout
-        jobs = dict(re.findall(r"^Job \d+: (.*)\nReason: (.*)$", words, flags=re.M))
-        table = words.split("Job stats:")[-1].split("total")[0]
-        return jobs, {rule: int(n) for rule, n in re.findall(r"^(\w+) +(\d+)$", table, flags=re.M)}
-
-    def edit(self, path, old, new):
-        """Replace a text that must be there."""
-        file = self.folder / path
-        text = file.read_text()
-        assert old in text, (path, old)
-        file.write_text(text.replace(old, new))
+        table = result.stdout.split("Job stats:")[-1].split("total")[0]
+        return {rule: int(n) for rule, n in re.findall(r"^(\w+) +(\d+)$", table, flags=re.M)}
 
     def records(self):
         """What each job has read and written: `{job: record}`."""
         found = (self / record.FOLDER).glob("*.json")
         return {path.stem: record.read(str(path)) for path in found}
-
-    def refuses(self, words, *arguments):
-        """Check that a run is refused before any work, with these words (a pattern)."""
-        result = self.run(*arguments)
-        assert result.returncode != 0, result.stdout
-        assert re.search(words, result.stdout), result.stdout
-        assert "Traceback" not in result.stdout, result.stdout
-        assert not (self / "results/logs").exists()
 
     def __truediv__(self, path):
         return self.folder / path

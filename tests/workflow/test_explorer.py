@@ -1,4 +1,7 @@
-"""The explorer in a browser: it answers its reader, draws what is true, stands alone."""
+"""The explorer in a browser: what a person does there, and what must be seen then.
+
+All of it is skipped where there is no browser; what the page solves is tested without one.
+"""
 
 import base64
 import io
@@ -6,6 +9,7 @@ import itertools
 import json
 import math
 import re
+import time
 from pathlib import Path
 
 import numpy as np
@@ -18,22 +22,101 @@ from stronge1994 import plan
 from stronge1994.explorer import page as write_explorer
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
-from tests.workflow.controls import (
-    FRAME,
-    SOLID,
-    click,
-    element,
-    number,
-    shown_energies,
-    text,
-    type_in,
-    value,
-    wait_for,
-)
+from tests.workflow import browser, node
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "workflow/explorer"
 SLIDERS = [name for name in write_explorer.LIMITS if name not in ("radius", "gravity")]
+SOLID = "&poisson_ratio=0.3&mass_ratio=3.5"
+# A change is drawn in the next frame of the browser.
+FRAME = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+PLAY = "document.getElementById('play').textContent.split(' ').slice(1).join(' ')"
+
+
+def element(name):
+    return f"document.getElementById('{name}')"
+
+
+def text(tab, name):
+    return tab.evaluate(f"{element(name)}.textContent.trim()")
+
+
+def texts(tab, query):
+    return tab.evaluate(f"[...document.querySelectorAll('{query}')].map((e) => e.textContent)")
+
+
+def number(words):
+    return float(words.replace("\u2212", "-"))
+
+
+def value(tab, name):
+    return float(tab.evaluate(f"{element(name)}.value"))
+
+
+def type_in(tab, name, typed):
+    """Type into a box, or choose in a list or of a slider."""
+    tab.evaluate(
+        f"{{ const box = {element(name)}; box.value = '{typed}';"
+        " for (const kind of ['input', 'change']) box.dispatchEvent(new Event(kind)); }"
+    )
+    tab.evaluate(FRAME)
+
+
+def click(tab, name):
+    tab.evaluate(f"{element(name)}.click()")
+    tab.evaluate(FRAME)
+
+
+def go(tab, address):
+    tab.evaluate(f"page.go('{address}')")
+    tab.evaluate(FRAME)
+
+
+def wait_for(tab, expression, wanted):
+    """Wait until a JavaScript expression has a value; for what the page does a little later."""
+    deadline = time.monotonic() + 5
+    while tab.evaluate(expression) != wanted and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert tab.evaluate(expression) == wanted
+
+
+def middle(tab, name):
+    """The middle of an element on the screen, once it is in view."""
+    return tab.evaluate(
+        f"(() => {{ {element(name)}.scrollIntoView({{ block: 'nearest' }});"
+        f" const {{ x, y, width, height }} = {element(name)}.getBoundingClientRect();"
+        " return [x + width / 2, y + height / 2]; })()"
+    )
+
+
+def drag(tab, how, *places):
+    """Press a mouse or put a finger at the first place, move to the others, let go."""
+    kinds = ["Pressed", *["Moved"] * len(places[1:]), "Released"]
+    for kind, (x, y) in zip(kinds, [*places, places[-1]], strict=True):
+        if how == "mouse":
+            more = {"button": "left", "buttons": 1, "clickCount": 1}
+            tab.call("Input.dispatchMouseEvent", type=f"mouse{kind}", x=x, y=y, **more)
+        else:
+            points = [] if kind == "Released" else [{"x": x, "y": y}]
+            kind = {"Pressed": "Start", "Moved": "Move", "Released": "End"}[kind]
+            tab.call("Input.dispatchTouchEvent", type=f"touch{kind}", touchPoints=points)
+        tab.evaluate(FRAME)
+
+
+# ---- the page as a run writes it
+
+
+def test_a_run_writes_this_page_and_it_needs_nothing_else(first_run, explorer):
+    page = explorer.read_text(encoding="utf-8")
+    assert (first_run[0] / "figures/explorer.html").read_text(encoding="utf-8") == page
+    assert len(page.encode()) < 1_000_000
+    assert "http:" not in page and "https:" not in page and "@import" not in page
+    assert not re.search(r"\bsrc\s*=\s*[\"']", page)
+    # All else are links, which load nothing.
+    linked = re.findall(r"<(\w+)[^>]*\bhref=\"([^\"]*)\"", page)
+    assert [address for tag, address in linked if tag != "a"] == ["data:,"]
+    written = re.findall(r'data-mass_ratio="(.*?)">(.*?)<', page)
+    assert written == [("3.5", "solid sphere"), ("2.5", "thin shell"), ("3.0", "disc")]
 
 
 @pytest.fixture(scope="module")
@@ -41,75 +124,8 @@ def settings():
     return plan.settings_of_explorer(configuration.load(ROOT))
 
 
-@pytest.fixture(scope="module")
-def presets(settings):
-    return write_explorer.presets(settings)
-
-
-# ---- it answers its reader
-
-
-def drawn(tab, slider):
-    """What follows from a control: from the last three, which have units, only the flight."""
-    parts = "#stage-svg, .numbers"
-    if slider in write_explorer.OF_FIGURES:
-        parts = "#stage-svg, #incidence, #outcomes, .numbers, #forces, #velocity, #energy"
-    if slider == "table":
-        parts = "#stage-svg"
-    return tab.evaluate(f"[...document.querySelectorAll('{parts}')].map((e) => e.outerHTML)")
-
-
-@pytest.mark.parametrize("slider", SLIDERS)
-def test_a_slider_is_moved_by_keys_and_by_typing(slider, show):
-    state = "angle=50&friction=0.5&restitution=0.6&poisson_ratio=0.3&mass_ratio=3&table=1"
-    tab = show(state, height=3000)
-    before, start = drawn(tab, slider), value(tab, slider)
-    tab.evaluate(f"{element(slider)}.focus()")
-    for _ in range(5):
-        tab.press("ArrowRight")
-    tab.evaluate(FRAME)
-    assert value(tab, slider) > start
-    assert value(tab, f"{slider}-number") == value(tab, slider)
-    assert all(a != b for a, b in zip(before, drawn(tab, slider), strict=True))
-    least, largest, _ = write_explorer.LIMITS[slider]
-    for typed in (least, largest):
-        type_in(tab, f"{slider}-number", f" {str(typed).replace('.', ',')} ")
-        assert value(tab, slider) == value(tab, f"{slider}-number") == typed
-    label = tab.evaluate(f"document.querySelector('label[for={slider}]').textContent")
-    for typed in (f"{least - 0.01}", "1e9", "", "1 000", "abc"):
-        type_in(tab, f"{slider}-number", typed)
-        assert value(tab, slider) == value(tab, f"{slider}-number") == largest
-        refused = f"{label}: \u201c{typed}\u201d is refused."
-        assert text(tab, "refused") == f"{refused} Allowed: numbers from {least} to {largest}."
-    box = element(f"{slider}-number")
-    tab.evaluate(f"{box}.dispatchEvent(new KeyboardEvent('keydown', {{key: 'ArrowDown'}}))")
-    tab.evaluate(FRAME)
-    step = tab.evaluate(f"{box}.dataset.step")
-    assert value(tab, slider) == pytest.approx(largest - float(step), abs=1e-9)
-    assert text(tab, "refused") == ""
-
-
-@pytest.mark.parametrize(
-    ("address", "words"),
-    [
-        ("angle=200", "Angle of incidence θ: “200” is refused. Allowed: numbers from 0 to 89.9."),
-        ("radius=0", "radius: “0” is refused. Allowed: numbers from 1 to 200."),
-        (
-            "view=motion",
-            "At every incidence: “motion” is refused. Allowed: velocity, forces, energy.",
-        ),
-        ("models=a", "models: “a” is refused. Allowed: lumped, rigid, continuum."),
-        ("loss=none", "loses energy: “none” is refused. Allowed: viscous, plastic."),
-    ],
-)
-def test_an_address_that_is_not_allowed_is_told(address, words, show):
-    tab = show(f"friction=0.7&{address}")
-    assert text(tab, "refused") == words
-    # What an address says wrongly is as the page opens; what it says well, counts.
-    assert [value(tab, name) for name in ("angle", "friction")] == [50, 0.7]
-
-
-def test_presets_stand_where_the_figures_say(presets, settings):
+def test_presets_stand_where_the_figures_say(settings):
+    presets = write_explorer.presets(settings)
     assert sorted(presets) == sorted(figures.with_trait("explorer"))
     for figure in ("fig3", "fig4"):
         x = math.tan(math.radians(presets[figure]["angle"])) / presets[figure]["friction"]
@@ -119,35 +135,137 @@ def test_presets_stand_where_the_figures_say(presets, settings):
     assert presets["fig6"]["restitution"] == sorted(settings["figures"]["fig6"]["restitution"])[1]
     zeta2 = bodies.stiffness_ratio(bodies.Material(1.0, presets["fig5"]["poisson_ratio"]))
     assert abs(zeta2 - settings["stiffness_ratio"]) < 1e-4
+    # In the words about it, the lumped model is thrown back less with e = 1, the continuum more.
+    state = presets["fig6"]
+    x, e = math.tan(math.radians(state["angle"])) / state["friction"], [state["restitution"], 1.0]
+    lossy, elastic = lumped.rebound(x, state["mass_ratio"], zeta2, e).velocity
+    assert lossy < elastic < 0
+    for loss in continuum.LOSSES:
+        found = continuum.rebound(x, state["mass_ratio"], zeta2, e, loss=loss, tolerance=1e-2)
+        assert found.velocity[1] < found.velocity[0]
+    # What the sliders cannot show is not offered.
+    for stiffness_ratio in (0.4, 2.5):
+        assert write_explorer.presets(settings | {"stiffness_ratio": stiffness_ratio}) == {}
 
 
-def test_a_preset_shows_the_impact_of_its_figure(show, presets):
-    tab = show(height=3000)
-    for state in presets.values():
-        address = tab.evaluate(
-            f"[...{element('preset')}.options].map((one) => one.value)"
-            f".find((one) => one.startsWith('{write_explorer.address(state)}'))"
-        )
-        type_in(tab, "preset", address)
-        assert tab.evaluate(f"{element('preset')}.value") == address
-        nu, mu, e = (state[name] for name in ("poisson_ratio", "friction", "restitution"))
-        x, beta = math.tan(math.radians(state["angle"])) / mu, state["mass_ratio"]
-        wanted = lumped.rebound(x, beta, (2 - nu) / (2 * (1 - nu)), e)
-        for name, theirs in zip(
-            ("incidence", "velocity", "friction"), (x, *wanted[:2]), strict=True
-        ):
-            assert abs(number(text(tab, f"number-{name}")) - theirs) <= 6e-4
-        total = 1 + (mu * x) ** 2 / beta
-        energies = shown_energies(tab)
-        assert np.abs(energies.sum(axis=0) - 100).max() <= 0.31
-        assert abs(energies[-1, -1] - 200 * mu**2 * wanted.dissipation / total) <= 0.06
-        assert len(text(tab, "about")) > 20
-    type_in(tab, "angle-number", "44")
-    assert tab.evaluate(f"{element('preset')}.value") == "" and text(tab, "about") == ""
+@pytest.mark.parametrize(
+    ("solver", "answer"),
+    [
+        ("solver", "return { velocity, peak_friction, dissipation, regime }"),
+        ("continuum", "velocity, peak_friction: peak / largest"),
+    ],
+)
+def test_the_page_checks_itself(solver, answer, scripts, answers):
+    given = json.dumps(answers)
+    assert scripts.evaluate(f"check.differing({given})") == []
+    wrong = node.expression(
+        solver, answer, answer.replace("velocity,", "velocity: 0.9 * velocity,")
+    )
+    checked = f"(({solver}) => {node.expression('check')})({wrong}).differing({given}).length"
+    assert scripts.evaluate(checked) > 20
 
 
-def test_a_ball_to_throw_sets_all_that_it_names(show):
+def test_a_page_with_a_wrong_solver_says_so(tab, explorer, tmp_path):
+    page = explorer.read_text(encoding="utf-8")
+    answer = "return { velocity, peak_friction, dissipation, regime }"
+    assert page.count(answer) == 1
+    wrong = tmp_path / "wrong.html"
+    wrong.write_text(page.replace(answer, answer.replace("velocity,", "velocity: 0,")))
+    warnings = []
+    for path in (explorer, wrong):
+        tab.open(path.as_uri())
+        warnings.append("".join(texts(tab, "main > [role=alert]")))
+    assert warnings[0] == ""
+    assert warnings[1].startswith("Do not trust this page: its solver differs")
+
+
+def test_problems_of_a_page_are_noticed(tab):
+    tab.problems.clear()
+    tab.open("data:text/html,<script>console.error('oh'); missing()</script>")
+    assert any("oh" in words for words in tab.problems)
+    assert any("missing is not defined" in words for words in tab.problems)
+    with pytest.raises(browser.Error, match="lost"):
+        tab.evaluate("(() => { throw new Error('lost'); })()")
+
+
+# ---- what a person does
+
+
+def test_sliders_are_moved_by_keys_and_by_typing(show):
+    state = "angle=50&friction=0.5&restitution=0.6&poisson_ratio=0.3&mass_ratio=3&table=1"
+    tab = show(state)
+    for slider in SLIDERS:
+        go(tab, state)
+        parts = "#stage-svg"
+        if slider in write_explorer.OF_FIGURES:
+            parts += ", #incidence, #outcomes"
+        drawn = f"[...document.querySelectorAll('{parts}')].map((e) => e.outerHTML)"
+        before, start = tab.evaluate(drawn), value(tab, slider)
+        tab.evaluate(f"{element(slider)}.focus()")
+        tab.press("ArrowRight")
+        tab.evaluate(FRAME)
+        assert value(tab, f"{slider}-number") == value(tab, slider) > start
+        assert all(a != b for a, b in zip(before, tab.evaluate(drawn), strict=True)), slider
+        least, largest, _ = write_explorer.LIMITS[slider]
+        for typed in (least, largest):
+            type_in(tab, f"{slider}-number", f" {str(typed).replace('.', ',')} ")
+            assert value(tab, slider) == value(tab, f"{slider}-number") == typed
+        label = tab.evaluate(f"document.querySelector('label[for={slider}]').textContent")
+        for typed in (f"{least - 0.01}", "1e9", *(["", "1 000"] if slider == "angle" else [])):
+            type_in(tab, f"{slider}-number", typed)
+            assert value(tab, slider) == value(tab, f"{slider}-number") == largest
+            refused = f"{label}: \u201c{typed}\u201d is refused."
+            assert text(tab, "refused") == f"{refused} Allowed: numbers from {least} to {largest}."
+        box = element(f"{slider}-number")
+        tab.evaluate(f"{box}.dispatchEvent(new KeyboardEvent('keydown', {{key: 'ArrowDown'}}))")
+        tab.evaluate(FRAME)
+        step = float(tab.evaluate(f"{box}.dataset.step"))
+        assert value(tab, slider) == pytest.approx(largest - step, abs=1e-9)
+        assert text(tab, "refused") == ""
+
+
+def test_an_address_that_is_not_allowed_is_told(show):
     tab = show()
+    for address, words in (
+        ("angle=200", "Angle of incidence θ: “200” is refused. Allowed: numbers from 0 to 89.9."),
+        ("radius=0", "radius: “0” is refused. Allowed: numbers from 1 to 200."),
+        (
+            "view=motion",
+            "At every incidence: “motion” is refused. Allowed: velocity, forces, energy.",
+        ),
+        ("models=a", "models: “a” is refused. Allowed: lumped, rigid, continuum."),
+    ):
+        go(tab, f"friction=0.7&{address}")
+        assert text(tab, "refused") == words
+        # What an address says wrongly is as the page opens; what it says well, counts.
+        assert [value(tab, name) for name in ("angle", "friction")] == [50, 0.7]
+
+
+def assert_in_numbers(tab, state):
+    """The numbers of the first bounce, by the lumped model, are those of the package."""
+    nu, mu, e = (state[name] for name in ("poisson_ratio", "friction", "restitution"))
+    x, beta = math.tan(math.radians(state["angle"])) / mu, state["mass_ratio"]
+    zeta2 = float(bodies.stiffness_ratio(bodies.Material(1.0, nu)))
+    wanted = lumped.rebound(x, beta, zeta2, e)
+    slip = lumped.slip_throughout_limit(beta, zeta2, e)
+    names = "incidence", "velocity", "friction", "stick", "slip"
+    for name, theirs in zip(names, (x, *wanted[:2], zeta2, slip), strict=True):
+        assert abs(number(text(tab, f"number-{name}")) - theirs) <= 6e-4, name
+    rows = "[...document.querySelectorAll('#energies tbody tr')]"
+    cells = tab.evaluate(f"{rows}.map((r) => [...r.cells].slice(1).map((c) => c.textContent))")
+    energies = np.array([[0.0 if one == "\u2013" else float(one) for one in row] for row in cells])
+    assert np.abs(energies.sum(axis=0) - 100).max() <= 0.31
+    total = 1 + (mu * x) ** 2 / beta
+    assert abs(energies[-1, -1] - 200 * mu**2 * wanted.dissipation / total) <= 0.06
+
+
+def test_a_ball_or_a_figure_is_chosen(show, settings):
+    tab = show(height=3000)
+    options = tab.evaluate(f"[...{element('preset')}.options].map((one) => one.value)")
+    for state in write_explorer.presets(settings).values():
+        (address,) = [one for one in options if one.startswith(write_explorer.address(state))]
+        type_in(tab, "preset", address)
+        assert_in_numbers(tab, state)
     for ball in write_explorer.balls((FOLDER / "materials.yaml").read_text(encoding="utf-8")):
         type_in(tab, "preset", ball["address"])
         assert tab.evaluate(f"{element('preset')}.value") == ball["address"]
@@ -156,65 +274,313 @@ def test_a_ball_to_throw_sets_all_that_it_names(show):
         given = dict(pair.split("=") for pair in ball["address"].split("&"))
         # What is as the page opens is not said again.
         assert {name: said.get(name, given[name]) for name in given} == given
+    type_in(tab, "angle-number", "44")
+    assert tab.evaluate(f"{element('preset')}.value") == "" and text(tab, "about") == ""
 
 
-def test_what_the_sliders_cannot_show_is_not_offered(settings):
-    for stiffness_ratio in (0.4, 2.5):
-        assert write_explorer.presets(settings | {"stiffness_ratio": stiffness_ratio}) == {}
+def test_models_are_chosen(show):
+    assert text(show(), "agreement").startswith("The models shown agree on the direction.")
+    tab = show(f"angle=51&friction=0.5&restitution=0.8{SOLID}")
+    shown = ["#incidence polyline.curve", "#incidence .present", "#outcomes tbody .ink"]
+    drawn = (
+        f"{json.dumps(shown)}.map((all) => [...document.querySelectorAll(all)]"
+        ".map((e) => e.getAttribute('class').split(' ')[1]).sort())"
+    )
+    assert tab.evaluate(drawn) == 3 * [["lumped", "plastic", "rigid", "viscous"]]
+    for name in ("lumped", "rigid"):
+        click(tab, f"model-{name}")
+    assert tab.evaluate("page.address()").endswith("&models=continuum")
+    tab = show(tab.evaluate("page.address()"))
+    assert tab.evaluate(drawn) == 3 * [["plastic", "viscous"]]
+    x = 2 * math.tan(math.radians(51))
+    theirs = continuum.rebound(x, 3.5, 17 / 14, 0.8, loss="viscous", tolerance=1e-3)
+    share = 50 * theirs.dissipation / (1 + (0.5 * x) ** 2 / 3.5)
+    velocity, way, friction, lost = texts(tab, "#outcomes td")[:4]
+    found = number(velocity), number(friction), number(lost) / 100
+    wanted = theirs.velocity, theirs.peak_friction, share / 100
+    assert way == "back" and np.abs(np.subtract(found, wanted)).max() < 0.011
+    click(tab, "model-continuum")
+    assert tab.evaluate(drawn) == [[], [], []]
+    assert text(tab, "agreement") == "No model is chosen: tick one above."
+    go(tab, "restitution=0.09")
+    assert tab.evaluate(f"{element('uncovered')}.checkVisibility()")
+    assert f"from {continuum.LEAST_RESTITUTION} on" in text(tab, "uncovered")
+    # The continuum does not fly where it has no answer.
+    assert tab.evaluate("Object.keys(page.flights())") == ["lumped"]
 
 
-def test_words_about_a_preset_hold(presets, settings):
-    state = presets["fig6"]
-    x = math.tan(math.radians(state["angle"])) / state["friction"]
-    groups = state["mass_ratio"], settings["stiffness_ratio"]
-    lossy, elastic = lumped.rebound(x, *groups, [state["restitution"], 1.0]).velocity
-    assert lossy < elastic < 0, "raise e to 1: thrown back less"
-    for loss in continuum.LOSSES:
-        e = [state["restitution"], 1.0]
-        lossy, elastic = continuum.rebound(x, *groups, e, loss=loss, tolerance=1e-2).velocity
-        assert elastic < lossy, "in the continuum it is the other way round"
-
-
-def test_what_is_left_out_is_as_large_as_it_says():
-    x = np.linspace(0, 7, 71)
-    for e, losses, said in ((1.0, [None], 0.2), (0.8, continuum.LOSSES, (0.7, 0.9))):
-        paper = lumped.rebound(x, stiffness_ratio=17 / 14, restitution=e).velocity
-        for loss in losses:
-            real = continuum.rebound(x, 3.5, 17 / 14, e, loss=loss, tolerance=1e-3).velocity
-            assert round(np.abs(paper - real).max(), 1) in np.atleast_1d(said)
-    page = (FOLDER / "explorer.html").read_text(encoding="utf-8")
-    assert "up to 0.2 for <i>e</i> = 1 and by up to 0.9" in page
+def test_a_link_leads_back_to_an_impact(show):
+    state = "angle=33.3&friction=0.7&restitution=0.25&poisson_ratio=0.1&mass_ratio=4"
+    more = "&speed=3&spin=-50&table=0.5&radius=10&gravity=0&loss=plastic&of=lumped&view=energy"
+    tab = show(f"{state}{more}")
+    assert [value(tab, name) for name in SLIDERS] == [33.3, 0.7, 0.25, 0.1, 4.0, 3, -50, 0.5]
+    # One change, as they follow at once.
+    tab.evaluate(
+        f"{{ const box = {element('angle-number')}; for (const typed of [40, 45, 50]) {{"
+        " box.value = typed; box.dispatchEvent(new Event('input')); } }"
+    )
+    wait_for(tab, "location.hash", f"#{state}{more}".replace("33.3", "50"))
+    click(tab, "model-rigid")
+    wait_for(tab, "location.hash.endsWith('&models=lumped+continuum')", True)
+    # Back undoes a change.
+    tab.evaluate("history.back()")
+    wait_for(tab, f"{element('model-rigid')}.checked", True)
+    assert value(tab, "angle") == 50
+    tab.evaluate("history.back()")
+    wait_for(tab, f"{element('angle')}.value", "33.3")
+    # The link to the content is no impact.
+    tab.evaluate("document.querySelector('.skip').click()")
+    wait_for(tab, "location.hash", "#main")
+    assert value(tab, "angle") == 33.3
+    for copied, words in (("true", "The link is copied."), ("false", "Copy this link: file://")):
+        tab.evaluate(f"files.copy = async (text) => {{ window.link = text; return {copied}; }}")
+        click(tab, "do-copy")
+        wait_for(tab, f"{element('told')}.textContent.startsWith('{words}')", True)
+    assert tab.evaluate("link").endswith(f"#{state}{more}")
 
 
 @pytest.mark.parametrize(
-    ("address", "words"),
+    ("how", "lane", "ball"),
     [
-        (
-            "angle=0",
-            "The paper’s lumped model: the contact point comes straight, and nothing slips.",
-        ),
-        (
-            "angle=80&friction=0.1",
-            "The paper’s lumped model: the contact slips forwards throughout. The contact point"
-            " leaves forwards",
-        ),
-        (
-            "angle=51&friction=0.5&restitution=1&of=continuum",
-            "Continuum, elastic: the contact slips forwards first, then sticks in the middle, then"
-            " slips backwards.",
-        ),
-        (
-            "angle=20&friction=0.5&restitution=0",
-            "The paper’s lumped model: the contact sticks throughout. The contact point does not",
-        ),
+        ("mouse", "continuum", "stage-grasp"),
+        ("touch", "continuum", "stage-grasp"),
+        ("mouse", "lumped", "stage-other-grasp"),
     ],
 )
-def test_it_says_what_happens(address, words, show):
-    tab = show(f"{address}&of=lumped")
-    assert text(tab, "sentence").startswith(words)
-    # Below e = 1 it says that the evidence is divided.
-    cautions = tab.evaluate(f"{element('caution')}.checkVisibility()")
-    assert cautions == ("restitution=0" in address)
+def test_the_ball_is_pulled_and_flies(how, lane, ball, show):
+    tab = show("angle=30&friction=0.4&restitution=1", width=390 if how == "touch" else 1280)
+    x, y = middle(tab, ball)
+    ends = {way: (x + way * 70, y + way * 30) for way in (1, -1)}
+    aims = [
+        tab.evaluate(f"stage.aim_at({{ clientX: {u}, clientY: {v} }}, '{lane}')")
+        for u, v in ends.values()
+    ]
+    wanted = aims[0]
+    assert wanted["speed"] > 1 and wanted["angle"] > 45
+    # Pulled back, as a slingshot, the ball flies the other way.
+    assert aims[1] == pytest.approx(wanted, abs=0.2)
+    scrolled = tab.evaluate("scrollY")
+    drag(tab, how, (x, y), (x + 35, y + 15), ends[1])
+    assert {name: value(tab, name) for name in wanted} == wanted
+    assert tab.evaluate("scrollY") == scrolled
+    # With less motion the whole path is there at once.
+    assert value(tab, "time") == pytest.approx(tab.evaluate("stage.duration()"))
+    wait_for(tab, f"location.hash.startsWith('#angle={wanted['angle']:g}&')", True)
+
+
+def test_the_knob_gives_spin(show):
+    tab = show()
+    for spin in (200, -395):
+        go(tab, f"angle=30&friction=0.4&restitution=1&spin={spin}")
+        knob, ball = (np.array(middle(tab, f"stage-{name}")) for name in ("knob", "grasp"))
+        # About the centre of the ball, by 0.125 rad.
+        across = np.array([ball[1] - knob[1], knob[0] - ball[0]])
+        drag(tab, "mouse", knob.tolist(), (knob + 0.125 * across).tolist())
+        assert abs(value(tab, "spin") - (spin + 80 * 0.125)) <= 5
+        assert value(tab, "time") == 0, "the knob does not throw"
+
+
+def place_in(tab, chart, wanted):
+    """Where a value of the horizontal axis of a chart is on the screen, by the labels there."""
+    middle(tab, chart)
+    labels = tab.evaluate(
+        f"[...document.querySelectorAll('#{chart} .tick[text-anchor=middle]')].map((e) => {{"
+        " const { x, width } = e.getBoundingClientRect();"
+        " return [x + width / 2, +e.textContent.replace('\u2212', '-')]; })"
+    )
+    slope, start = np.polyfit(*np.transpose(labels), 1)
+    top = tab.evaluate(f"{element(chart)}.getBoundingClientRect().y")
+    return (wanted - start) / slope, top + 60
+
+
+def test_charts_are_dragged(show):
+    tab = show(f"angle=51&friction=0.5&restitution=0.5{SOLID}", height=3000)
+    drag(tab, "mouse", place_in(tab, "velocity", 0.8))
+    assert abs(tab.evaluate(f"stage.first_bounce({value(tab, 'time')}).time") - 0.8) < 0.02
+    # The chart says the incidence of the contact point, to which spin adds.
+    for spin in (0, 40):
+        go(tab, f"angle=51&friction=0.5&restitution=0.5&spin={spin}{SOLID}")
+        drag(tab, "mouse", place_in(tab, "incidence", math.tan(math.radians(45)) / 0.5))
+        along, up = tab.evaluate("(({ along, up }) => [along, up])(page.impact().before)")
+        assert abs(along - 0.025 * spin + up) < 0.12
+    # The axis stands still while it is dragged: beyond its end is its end.
+    go(tab, f"angle=51&friction=0.5&restitution=0.5{SOLID}")
+    x, y = place_in(tab, "incidence", 7.9)
+    drag(tab, "mouse", (x, y), (x + 10, y), (x + 40, y), (x + 80, y))
+    assert abs(value(tab, "angle") - math.degrees(math.atan(0.5 * 8))) < 0.1
+
+
+def test_a_finger_that_scrolls_the_page_changes_nothing(show):
+    state = "angle=51&friction=0.5&restitution=0.5&mass_ratio=3.5"
+    tab = show(state, width=390)
+    scrolls, along, tap = [(0, -12), (4, -60), (60, -120)], [(12, 2), (60, 8)], []
+    for moves, changes in ((scrolls, False), (along, True), (tap, True)):
+        go(tab, state)
+        x, y = place_in(tab, "incidence", 4.0)
+        drag(tab, "touch", (x, y), *[(x + right, y + down) for right, down in moves])
+        assert (value(tab, "angle") != 51) == changes
+
+
+def test_the_show_runs_pauses_and_ends(show):
+    tab = show("angle=30&friction=0.4&restitution=0.5&speed=3", motion="no-preference")
+    assert tab.evaluate(PLAY) == "Throw" and value(tab, "time") == 0
+    type_in(tab, "pace", "2")
+    click(tab, "play")
+    assert tab.evaluate(PLAY) == "Pause"
+    wait_for(tab, f"{element('time')}.value > 0.3", True)
+    tab.press(" ")
+    here = value(tab, "time")
+    assert tab.evaluate(PLAY) == "Go on"
+    tab.evaluate(FRAME)
+    assert value(tab, "time") == here
+    # Just before its end, which it reaches by itself.
+    type_in(tab, "time", str(tab.evaluate("stage.duration()") - 0.2))
+    click(tab, "play")
+    wait_for(tab, PLAY, "Throw")
+    assert value(tab, "time") == pytest.approx(tab.evaluate("stage.duration()"))
+    click(tab, "do-start")
+    assert value(tab, "time") == 0 and text(tab, "stage-moment") == ""
+
+
+def at_times(tab, times, expression):
+    """Value of a JavaScript expression at times t/t_c of the first bounce."""
+    return tab.evaluate(
+        f"(() => {{ const slider = {element('time')}, {{ segment }} = stage.first_bounce(0);"
+        f" return {json.dumps(list(times))}.map((t) => {{"
+        " slider.value = segment.start + (t / segment.end) * segment.length;"
+        f" slider.dispatchEvent(new Event('input')); return {expression}; }}); }})()"
+    )
+
+
+def test_time_shows_flights_and_bounces(show):
+    tab = show(f"angle=40&friction=0.4&restitution=1&speed=5&of=lumped{SOLID}", height=3000)
+    moved = (
+        "['stage-lumped-ball', 'diagram-origin'].map((one) => document.getElementById(one)"
+        ".getAttribute('transform').match(/-?[\\d.]+/g).map(Number))"
+    )
+    ((hand, _),), flights = [tab.evaluate(moved)], tab.evaluate("page.flights()")
+    type_in(tab, "time", "0.001")
+    assert text(tab, "stage-moment").startswith("in flight")
+    assert texts(tab, ".patch b") == ["no contact"] * 2
+    times = [0.01, 0.5, 1.0, 1.5]
+    places = at_times(tab, times, moved)
+    assert text(tab, "stage-moment").startswith("bounce 1")
+    first, now = flights["lumped"][0], places[2][0]
+    scale = (now[0] - hand[0]) / (first["ball"]["along"] * first["time"])
+    assert now[1] - hand[1] == pytest.approx(scale * first["ball"]["height"], abs=0.2)
+    turned = math.degrees(first["ball"]["spin"] * first["time"])
+    assert now[2] - hand[2] == pytest.approx(turned, abs=0.2)
+    # Under the microscope the surface goes as far as the contact point: 26 for v2(0)/Omega.
+    found = lumped.history(math.tan(math.radians(40)) / 0.4, 3.5, 17 / 14, 1.0, samples=2001)
+    steps = (found.velocity[1:] + found.velocity[:-1]) / 2 * np.diff(found.time) * math.pi / 2
+    way = np.interp(times, found.time, np.concatenate([[0], np.cumsum(steps)]))
+    assert 220 - np.array([origin[0] for _, origin in places]) == pytest.approx(26 * way, abs=0.3)
+    click(tab, "do-micro")
+    assert text(tab, "patch-continuum-words") == "middle sticks, edge slips"
+
+
+def test_everything_is_reached_and_done_by_keys(show):
+    tab, reached = show("angle=30&friction=0.4&restitution=1&speed=5&spin=0", width=390), {}
+    for _ in range(70):
+        tab.press("Tab")
+        name = tab.evaluate("document.activeElement.id || document.activeElement.textContent")
+        box = "document.activeElement.getBoundingClientRect()"
+        reached.setdefault(name, tab.evaluate(f"scrollY + {box}.bottom"))
+    controls = "[...document.querySelectorAll('button, input, select, [tabindex]')]"
+    there = "!e.disabled && e.checkVisibility() && !e.closest('details:not([open])')"
+    wanted = tab.evaluate(f"{controls}.filter((e) => {there}).map((e) => e.id || e.textContent)")
+    assert len(wanted) > 20 and set(wanted) <= set(reached)
+    tab.evaluate(f"{element('stage-grasp')}.focus()")
+    for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "ArrowUp", "PageUp", "PageDown", "PageUp"):
+        tab.press(key)
+    tab.evaluate(FRAME)
+    assert [value(tab, name) for name in ("angle", "speed", "spin")] == [31, 5.2, 20]
+    assert value(tab, "time") == 0
+    tab.press("Enter")
+    assert value(tab, "time") == pytest.approx(tab.evaluate("stage.duration()"))
+    # A button that is pressed by space does not play too.
+    tab.evaluate(f"{element('thin-shell')}.focus()")
+    tab.press(" ")
+    tab.evaluate(FRAME)
+    assert tab.evaluate(PLAY) == "Throw" and value(tab, "mass_ratio") == 2.5
+
+
+# For each wish an impact that misses it, and the words that say so.
+WRONG = [
+    ("angle=45&friction=0.3&restitution=1", "The impulse of friction is"),
+    ("angle=45&friction=0.7&restitution=1", "µζ² is 85.0 % of tan θ"),
+    ("angle=45&friction=1&restitution=1", "The share that friction takes is"),
+    ("angle=55&friction=0.5&restitution=1", "The share that comes back is 44.6 %"),
+    ("angle=50&friction=0.5&restitution=0.9", "Restitution is too small by 0.10."),
+]
+
+
+def test_the_challenge_is_taken(show):
+    tab = show("angle=0")
+    assert len(texts(tab, ".verdict")) == len(WRONG)
+    for index, (address, words) in enumerate(WRONG):
+        go(tab, f"{address}{SOLID}")
+        assert texts(tab, ".verdict")[index].startswith(words)
+        tab.evaluate(f"document.querySelectorAll('#challenge button')[{index}].click()")
+        tab.evaluate(FRAME)
+        # The continuum agrees, or it would be named.
+        assert texts(tab, ".verdict")[index] == "\u2713 You have met it."
+        assert texts(tab, "#challenge .heard") == [f"Challenge {index + 1} is met."]
+    # Below e = 1 the lumped contact slips throughout where the continua still stick.
+    go(tab, f"angle=45&friction=0.25&restitution=0.5{SOLID}")
+    words = r"✓ .* continuum, viscous: The impulse.* continuum, plastic: The impulse"
+    assert re.match(words, texts(tab, ".verdict")[0])
+
+
+def test_numbers_and_pictures_are_saved(show):
+    tab = show(f"angle=45&friction=0.5&restitution=0.5{SOLID}&view=velocity")
+    tab.evaluate("files.save = (name, blob) => (window.saved = { name, blob })")
+    click(tab, "do-csv")
+    assert tab.evaluate("saved.name") == "impact.csv"
+    saved = tab.evaluate("saved.blob.text()")
+    table = pd.read_csv(io.StringIO(saved), comment="#")
+    notes = dict(re.findall(r"# (.*) = (\S+)\n", saved))
+    assert float(notes["friction coefficient mu [1]"]) == 0.5
+    x = table["incidence v1(0)/(mu v2(0)) [1]"]
+    wanted = lumped.rebound(x, 3.5, 17 / 14, 0.5).velocity
+    names = "the paper’s lumped model", "rigid limit", "continuum, viscous", "continuum, plastic"
+    assert list(table.columns[2:]) == [f"{name}: v1(tf)/(mu v2(0)) [1]" for name in names]
+    assert np.abs(table[table.columns[2]] - wanted).max() < 1e-9
+    here = lumped.rebound(2.0, 3.5, 17 / 14, 0.5).velocity
+    assert abs(float(notes[table.columns[2]]) - here) < 1e-9
+    for button, name in (("ball", "stage.png"), ("curve", "curve.png")):
+        click(tab, f"do-{button}")
+        wait_for(tab, "window.saved?.name", name)
+        encoded = tab.evaluate(
+            "new Promise((done) => { const reader = new FileReader(); reader.onload = () =>"
+            " done(reader.result.split(',')[1]); reader.readAsDataURL(saved.blob); })"
+        )
+        picture = imread(io.BytesIO(base64.b64decode(encoded)))
+        assert picture.shape[1] > 600 and picture[..., :3].std() > 0.05
+        # A drawing without its style sheet would be black.
+        assert np.median(picture[..., :3]) > 0.9
+
+
+def test_the_stage_alone_is_a_frame_of_a_lecture(show):
+    tab = show(f"angle=40&friction=0.4&restitution=1{SOLID}", query="?stage")
+    parts = ["stage-svg", "play", "time", "patches", "angle", "angle-number"]
+    for name in [*parts, "preset", "friction", "incidence", "outcomes", "challenge", "forces"]:
+        assert tab.evaluate(f"{element(name)}.checkVisibility()") == (name in parts), name
+    entries = tab.evaluate("history.length")
+    type_in(tab, "angle-number", "25")
+    wait_for(tab, "location.hash.startsWith('#angle=25&')", True)
+    assert tab.evaluate("history.length") == entries
+
+
+def test_nothing_is_wider_than_the_screen_of_a_phone(show):
+    tab = show("angle=89.9&friction=0.01", width=320)
+    inside = "innerWidth === 320 && document.documentElement.scrollWidth <= innerWidth"
+    all_balls = (
+        f"(async () => {{ const wide = [{inside}]; for (const {{ value }} of"
+        f" [...{element('preset')}.options].slice(1)) {{ page.go(value); await {FRAME};"
+        f" wide.push({inside}); }} return wide; }})()"
+    )
+    assert all(tab.evaluate(all_balls))
 
 
 def test_the_corners_of_the_box_are_drawn(show):
@@ -235,232 +601,3 @@ def test_the_corners_of_the_box_are_drawn(show):
     for state, page in zip(states, pages, strict=True):
         assert "is refused" not in page, state
         assert not re.search(r"NaN|Infinity|undefined", page), state
-
-
-@pytest.mark.parametrize("width", [390, 1280])
-def test_everything_is_reached_by_tab_in_the_order_in_which_it_is_seen(width, show):
-    tab, reached = show(width=width), {}
-    box = "document.activeElement.getBoundingClientRect()"
-    for _ in range(70):
-        tab.press("Tab")
-        name = tab.evaluate("document.activeElement.id || document.activeElement.textContent")
-        section = tab.evaluate("document.activeElement.closest('section')?.id ?? ''")
-        reached.setdefault(name, (section, tab.evaluate(f"scrollY + {box}.bottom")))
-    controls = "[...document.querySelectorAll('button, input, select, [tabindex]')]"
-    there = "!e.disabled && e.checkVisibility() && !e.closest('details:not([open])')"
-    wanted = set(
-        tab.evaluate(f"{controls}.filter((e) => {there}).map((e) => e.id || e.textContent)")
-    )
-    assert len(wanted) > 20 and wanted <= set(reached)
-    ours = [one for one in reached.values() if one[0] in ("", "stage", "controls", "rebound")]
-    steps = [(a, b) for a, b in zip(ours, ours[1:], strict=False) if width < 500 or a[0] == b[0]]
-    # Two controls beside each other need not end at the same height.
-    assert all(below[1] > above[1] - (12 if width < 500 else 40) for above, below in steps)
-
-
-def test_space_plays_and_pauses(show):
-    tab = show()
-    playing = f"{element('play')}.textContent.endsWith('Pause')"
-    for focus in ("document.body", element("angle")):
-        tab.evaluate(f"({focus}).focus()")
-        tab.press(" ")
-        assert tab.evaluate(playing)
-        tab.press(" ")
-        assert not tab.evaluate(playing)
-    # A button that is pressed by space does not play too.
-    tab.evaluate("document.querySelectorAll('.body')[1].focus()")
-    tab.press(" ")
-    tab.evaluate(FRAME)
-    assert not tab.evaluate(playing) and value(tab, "mass_ratio") == 2.5
-
-
-def test_the_address_leads_back_to_an_impact(show):
-    state = "angle=33.3&friction=0.7&restitution=0.25&poisson_ratio=0.1&mass_ratio=4"
-    more = "&speed=3&spin=-50&table=0.5&radius=10&gravity=0&loss=plastic&of=lumped&view=energy"
-    tab = show(f"{state}{more}")
-    assert [value(tab, name) for name in SLIDERS] == [33.3, 0.7, 0.25, 0.1, 4.0, 3, -50, 0.5]
-    type_in(tab, "friction-number", "0.8")
-    wait_for(tab, "location.hash", f"#{state}{more}".replace("0.7", "0.8"))
-    tab.evaluate("location.hash = 'angle=10&mass_ratio=nonsense&friction=99&who=knows'")
-    wait_for(tab, f"{element('angle')}.value", "10")
-    assert [value(tab, name) for name in ("friction", "mass_ratio")] == [0.4, 3.5]
-    # A link that is short is a link to what the page opens with.
-    type_in(tab, "friction-number", "0.5")
-    short = "#angle=10&friction=0.5&restitution=1&poisson_ratio=0.3&mass_ratio=3.5"
-    wait_for(tab, "location.hash", short)
-
-
-def test_back_undoes_a_change(show):
-    state = "angle=33&friction=0.7&restitution=0.25&poisson_ratio=0.1&mass_ratio=4&view=energy"
-    tab = show(state)
-    for typed in ("40", "45", "50"):  # one change: they follow at once
-        type_in(tab, "angle-number", typed)
-    wait_for(tab, "location.hash", f"#{state.replace('33', '50')}")
-    click(tab, "model-rigid")
-    wait_for(tab, "location.hash.endsWith('&models=lumped+continuum')", True)
-    tab.evaluate("history.back()")
-    wait_for(tab, f"{element('model-rigid')}.checked", True)
-    assert value(tab, "angle") == 50
-    tab.evaluate("history.back()")
-    wait_for(tab, f"{element('angle')}.value", "33")
-    # The link to the content is no impact.
-    tab.evaluate("document.querySelector('.skip').click()")
-    wait_for(tab, "location.hash", "#main")
-    assert value(tab, "angle") == 33
-
-
-@pytest.mark.parametrize("width", [320, 360, 800, 1280])
-def test_nothing_is_wider_than_the_screen(width, show):
-    tab = show("angle=89.9&friction=0.01", width=width)
-    assert tab.evaluate("innerWidth") == width
-    inside = "document.documentElement.scrollWidth <= innerWidth"
-    wide = (
-        f"(async () => {{ const wide = [{inside}]; for (const {{ value }} of"
-        f" [...{element('preset')}.options].slice(1)) {{ page.go(value); await {FRAME};"
-        f" wide.push({inside}); }} return wide; }})()"
-    )
-    assert all(tab.evaluate(wide))
-
-
-def test_a_change_is_drawn_within_two_frames(show):
-    change = (
-        "(async () => { const slider = document.getElementById('angle'), times = [];"
-        " const frame = (act) => new Promise((done) => requestAnimationFrame(() => done(act?.())));"
-        " for (let i = 1; i <= 20; i++) { let start;"
-        " requestAnimationFrame(() => (start = performance.now())); slider.value = 4 * i;"
-        " slider.dispatchEvent(new Event('input')); await frame(() => document.body.offsetHeight);"
-        " times.push(performance.now() - start); } return Math.min(...times); })()"
-    )
-    assert show().evaluate(change) < 33  # ms, half of that where nothing else runs
-
-
-# ---- how it looks, and what a reader takes along
-
-
-def test_the_first_screen_has_the_ball_the_throw_and_the_curve(show):
-    tab = show(width=1440, height=900)
-    parts = "#preset, #stage-svg, #play, #patches, #sentence, #control-angle, #incidence"
-    boxes = (
-        f"[...document.querySelectorAll('{parts}')].map((e) => e.getBoundingClientRect().bottom)"
-    )
-    bottoms = tab.evaluate(boxes)
-    assert len(bottoms) == 7 and max(bottoms) <= 900
-
-
-def luminance(colour):
-    """Relative luminance of WCAG of three numbers from 0 to 255."""
-    share = np.array(colour) / 255
-    linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
-    return linear @ [0.2126, 0.7152, 0.0722]
-
-
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_lines_stand_out_from_every_band(theme, show):
-    tab = show(f"angle=51&friction=0.5&restitution=0.5&of=lumped{SOLID}", height=3000)
-    tab.evaluate(f"document.documentElement.dataset.theme = '{theme}'")
-    styles = (
-        "(all, name) => [...document.querySelectorAll(all)].map((e) => getComputedStyle(e)[name])"
-    )
-
-    def colours(query, name):
-        found = tab.evaluate(f"({styles})('{query}', '{name}')")
-        return {tuple(map(int, re.findall(r"\d+", one)[:3])) for one in found}
-
-    (paper,) = colours("body", "backgroundColor")
-    (opacity,) = set(tab.evaluate(f"({styles})('.chart .band', 'opacity')"))
-    grounds = [
-        float(opacity) * np.array(band) + (1 - float(opacity)) * np.array(paper)
-        for band in colours(".chart .band", "fill")
-    ]
-    lines = colours(".chart polyline", "stroke")
-    assert len(lines) >= 5 and len(grounds) == 3
-    for line in lines:
-        for ground in [np.array(paper), *grounds]:
-            dark, light = sorted((luminance(line), luminance(ground)))
-            assert (light + 0.05) / (dark + 0.05) > 4.5, (line, ground)
-
-
-def test_dark_and_projector_are_buttons_that_are_remembered(show):
-    tab = show()
-    look = "(() => { const style = getComputedStyle(document.body);"
-    look += " return [style.backgroundColor, style.fontSize]; })()"
-    (paper, size) = tab.evaluate(look)
-    for name in ("dark", "projector"):
-        click(tab, f"do-{name}")
-    try:
-        tab = show()
-        dark, large = tab.evaluate(look)
-        assert dark != paper and float(large[:-2]) > 1.2 * float(size[:-2])
-        pressed = (
-            "['dark', 'projector'].map((id) => document.getElementById(`do-${id}`).ariaPressed)"
-        )
-        assert tab.evaluate(pressed) == ["true", "true"]
-        tab.press("Escape")
-        assert tab.evaluate(pressed) == ["true", "false"]
-    finally:
-        tab.evaluate("localStorage.clear()")
-
-
-def test_curves_and_numbers_are_saved(show):
-    tab = show(f"angle=45&friction=0.5&restitution=0.5{SOLID}&view=velocity")
-    tab.evaluate("files.save = (name, blob) => (window.saved = { name, blob })")
-    click(tab, "do-csv")
-    assert tab.evaluate("saved.name") == "impact.csv"
-    saved = tab.evaluate("saved.blob.text()")
-    table = pd.read_csv(io.StringIO(saved), comment="#")
-    notes = dict(re.findall(r"# (.*) = (\S+)\n", saved))
-    assert float(notes["friction coefficient mu [1]"]) == 0.5
-    x = table["incidence v1(0)/(mu v2(0)) [1]"]
-    wanted = lumped.rebound(x, 3.5, 17 / 14, 0.5).velocity
-    names = "the paper’s lumped model", "rigid limit", "continuum, viscous", "continuum, plastic"
-    assert list(table.columns[2:]) == [f"{name}: v1(tf)/(mu v2(0)) [1]" for name in names]
-    assert np.abs(table[table.columns[2]] - wanted).max() < 1e-9
-    here = lumped.rebound(2.0, 3.5, 17 / 14, 0.5).velocity
-    assert abs(float(notes[table.columns[2]]) - here) < 1e-9
-
-
-@pytest.mark.parametrize(("button", "name"), [("ball", "stage.png"), ("curve", "curve.png")])
-def test_a_picture_is_saved(button, name, show):
-    tab = show("angle=45&friction=0.5&restitution=0.5")
-    tab.evaluate("files.save = (name, blob) => (window.saved = { name, blob })")
-    click(tab, f"do-{button}")
-    wait_for(tab, "window.saved?.name", name)
-    encoded = tab.evaluate(
-        "new Promise((done) => { const reader = new FileReader(); reader.onload = () =>"
-        " done(reader.result.split(',')[1]); reader.readAsDataURL(saved.blob); })"
-    )
-    picture = imread(io.BytesIO(base64.b64decode(encoded)))
-    assert picture.shape[1] > 600 and picture[..., :3].std() > 0.05
-    # A drawing without its style sheet would be black.
-    assert np.median(picture[..., :3]) > 0.9
-
-
-def test_the_link_is_copied_or_shown(show):
-    tab = show("angle=45&friction=0.5")
-    for copied, words in (("true", "The link is copied."), ("false", "Copy this link: file://")):
-        tab.evaluate(f"files.copy = async (text) => {{ window.link = text; return {copied}; }}")
-        click(tab, "do-copy")
-        wait_for(tab, f"{element('told')}.textContent.startsWith('{words}')", True)
-    assert tab.evaluate("link").endswith("#" + tab.evaluate("page.address()"))
-
-
-# ---- it stands alone
-
-
-def test_the_page_needs_nothing_else(explorer):
-    page = explorer.read_text(encoding="utf-8")
-    assert len(page.encode()) < 1_000_000
-    assert "http:" not in page and "https:" not in page and "@import" not in page
-    assert not re.search(r"\bsrc\s*=\s*[\"']", page)
-    # All else are links, which load nothing: places on the page, and pages beside this one.
-    linked = re.findall(r"<(\w+)[^>]*\bhref=\"([^\"]*)\"", page)
-    assert [address for tag, address in linked if tag != "a"] == ["data:,"]
-    bar = (ROOT / "workflow/report/site.html").read_text(encoding="utf-8")
-    pages = re.findall(r'\("(\S+\.html)"', bar)
-    assert len(pages) > 5
-    assert {address for tag, address in linked if tag == "a"} == {"#main", *pages}
-
-
-def test_a_run_writes_this_page(first_run, explorer):
-    written = first_run[0] / "figures/explorer.html"
-    assert written.read_text(encoding="utf-8") == explorer.read_text(encoding="utf-8")

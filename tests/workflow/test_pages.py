@@ -3,20 +3,24 @@
 axe (https://github.com/dequelabs/axe-core) finds what people with a disability cannot read or use.
 """
 
+import doctest
 import functools
+import html
+import inspect
 import json
 import re
 import shutil
-from html.parser import HTMLParser
 from importlib import resources
-from pathlib import Path
 from urllib.parse import parse_qsl, unquote, urlsplit
 
 import pytest
 
+import planarimpact
 from stronge1994.pages import templates
+from tests.workflow.page import Page
+from tests.workflow.project import LEFT, PARTS, ROOT, copy_of
 
-FOLDER = Path(__file__).parents[2] / "workflow/report"
+FOLDER = ROOT / "workflow/report"
 BAR = re.findall(r'^  \("(.+?)", ', (FOLDER / "site.html").read_text(encoding="utf-8"), flags=re.M)
 INTERFACE = "interface/planarimpact.html"
 OF_LECTURES = "slides_", "answers_"
@@ -42,32 +46,9 @@ WINDOWS = {
 }
 
 
-class Page(HTMLParser):
-    """Anchors, links, the bar of pages and the controls of a page."""
-
-    def __init__(self, path):
-        super().__init__()
-        self.ids, self.links, self.bar, self.controls = {}, [], [], {}
-        self._in_bar, self._select = False, None
-        self.feed(path.read_text(encoding="utf-8"))
-
-    def handle_starttag(self, tag, attributes):
-        found = dict(attributes)
-        name = found.get("id", "")
-        self.ids[name] = tag
-        self._in_bar |= tag == "nav" and found.get("class") == "site"
-        if tag == "a" and "href" in found:
-            self.links.append(found["href"])
-            self.bar += [found["href"]] * self._in_bar
-        elif "src" in found:
-            self.links.append(found["src"])
-        if tag in ("input", "select"):
-            self._select = self.controls[name] = {**found, "options": []}
-        elif tag == "option":
-            self._select["options"].append(found.get("value"))
-
-    def handle_endtag(self, tag):
-        self._in_bar &= tag != "nav"
+@functools.cache
+def parsed(path):
+    return Page(path.read_text(encoding="utf-8"))
 
 
 def wrong_state(controls, state):
@@ -87,22 +68,22 @@ def wrong_state(controls, state):
 
 def dead_links(folder, names):
     """Links that lead nowhere, to no state of the explorer, or out of the folder of the pages."""
-    page, dead = functools.cache(Page), []
+    folder, dead = folder.resolve(), []
     for name in names:
-        start = (folder / name).resolve()
-        for link in page(start).links:
+        start = folder / name
+        for link in parsed(start).links + parsed(start).resources:
             scheme, _, path, _, anchor = urlsplit(link)
             if scheme:
                 continue
             target = (start.parent / unquote(path)).resolve() if path else start
             if not target.is_file():
                 dead.append((name, link, "no such file"))
-            elif not target.is_relative_to(folder.resolve()):
+            elif not target.is_relative_to(folder):
                 dead.append((name, link, "outside"))
             elif "=" in anchor and target.name == "explorer.html":
-                wrong = wrong_state(page(target).controls, anchor)
+                wrong = wrong_state(parsed(target).controls, anchor)
                 dead += [(name, link, wrong)] if wrong else []
-            elif anchor and unquote(anchor) not in page(target).ids:
+            elif anchor and unquote(anchor) not in parsed(target).ids:
                 dead.append((name, link, "no such anchor"))
     return dead
 
@@ -112,39 +93,60 @@ def figures(first_run):
     return first_run[0] / "figures"
 
 
-def test_the_bar_names_every_page(figures):
-    # A lecture links its own slides and answers.
-    written = {
-        path.name for path in figures.glob("*.html") if not path.name.startswith(OF_LECTURES)
-    }
-    assert sorted(BAR) == sorted(written)
-
-
-@pytest.mark.parametrize("name", BAR)
-def test_a_page_links_to_all_others_and_its_content_is_a_landmark(figures, name):
-    page = Page(figures / name)
-    assert page.bar == BAR
-    assert page.ids["main"] == "main"
-
-
-def test_the_interface_links_to_all_pages(interface):
-    assert Page(interface.parent / INTERFACE).bar == [f"../{file}" for file in BAR]
-
-
-def test_every_link_leads_somewhere(figures):
-    names = [path.name for path in figures.glob("*.html")]
-    assert dead_links(figures, names) == []
-
-
-def test_the_site_is_whole_wherever_it_is_unpacked(finished):
-    result = finished.run("site")
+@pytest.fixture(scope="module")
+def site(first_run, tmp_path_factory):
+    """The site, made after a run and unpacked somewhere else."""
+    folder = tmp_path_factory.mktemp("site")
+    project = copy_of(first_run[0].folder, folder / "project", PARTS + LEFT)
+    result = project.run("site")
     assert result.returncode == 0, result.stdout
-    shutil.unpack_archive(finished / "results/site.zip", finished / "stick/unpacked")
-    site = finished / "stick/unpacked/site"
+    shutil.unpack_archive(project / "results/site.zip", folder / "unpacked")
+    return folder / "unpacked/site"
+
+
+def test_every_page_has_a_bar_of_all_pages_and_a_landmark(figures):
+    # A lecture links its own slides and answers.
+    written = {path.name for path in figures.glob("*.html")}
+    assert sorted(BAR) == sorted(name for name in written if not name.startswith(OF_LECTURES))
+    for name in BAR:
+        page = parsed(figures / name)
+        assert page.bar == BAR and page.tags["main"] == "main", name
+
+
+def test_every_link_of_the_site_leads_somewhere_in_it(site, figures):
     pages = [str(path.relative_to(site)) for path in site.rglob("*.html")]
     assert set(pages) > {*BAR, INTERFACE}
-    assert INTERFACE in Page(site / "index.html").links
+    assert INTERFACE in parsed(site / "index.html").links
+    assert parsed(site / INTERFACE).bar == [f"../{file}" for file in BAR]
     assert dead_links(site, pages) == []
+    assert dead_links(figures, [path.name for path in figures.glob("*.html")]) == []
+
+
+def test_the_interface_has_a_page_a_module_and_names_types_as_the_sources_do(site):
+    page = (site / "interface/planarimpact/lumped.html").read_text(encoding="utf-8")
+    words = html.unescape(re.sub("<[^>]+>", "", page))
+    assert "incidence: ArrayLike" in words and ") -> Rebound:" in words
+    for room in planarimpact.__all__:
+        if inspect.ismodule(getattr(planarimpact, room)):
+            assert (site / f"interface/planarimpact/{room}.html").is_file(), room
+
+
+@pytest.mark.parametrize("every", [6, pytest.param(1, marks=pytest.mark.long)])
+def test_each_example_of_the_interface_runs_as_the_first_page_says(site, every):
+    examples = []
+    for path in sorted((site / "interface/planarimpact").rglob("*.html")):
+        module = ".".join(path.relative_to(site / "interface").with_suffix("").parts)
+        page = path.read_text(encoding="utf-8")
+        for shown in re.findall("<pre>(.*?)</pre>", page, flags=re.S):
+            text = html.unescape(re.sub("<[^>]+>", "", shown))
+            if text.startswith(">>> "):
+                examples.append((module, text))
+    assert len(examples) > 100
+    runner = doctest.DocTestRunner()
+    for module, text in examples[::every]:
+        text = f">>> import numpy as np\n>>> from {module} import *\n{text}"
+        runner.run(doctest.DocTestParser().get_doctest(text, {}, module, module, 0))
+    assert runner.failures == 0
 
 
 @pytest.mark.parametrize("name", ["report.html", "ledger.html", "note.html", "sources.html"])
@@ -157,7 +159,7 @@ def test_symbols_are_not_shown_as_they_are_typed(figures, name):
 
 
 def test_presets_of_the_explorer_are_states_that_it_allows(figures):
-    page = Page(figures / "explorer.html")
+    page = parsed(figures / "explorer.html")
     states = [state for state in page.controls["preset"]["options"] if state]
     assert len(states) > 10
     assert [wrong for state in states if (wrong := wrong_state(page.controls, state))] == []
@@ -165,18 +167,16 @@ def test_presets_of_the_explorer_are_states_that_it_allows(figures):
 
 def test_a_dead_link_is_found(tmp_path):
     inputs = '<input id="angle" min="0" max="90"><input id="model-a"><input id="model-b">'
-    view = '<select id="view"><option value="energy"></select>'
+    folder = tmp_path / "figures"
+    folder.mkdir()
     (tmp_path / "outside.csv").touch()
-    tmp_path = tmp_path / "figures"
-    tmp_path.mkdir()
-    (tmp_path / "explorer.html").write_text(f'<h1 id="top">{inputs}{view}')
-    good = ["#here", "explorer.html", "explorer.html#top", "explorer.html#angle=9.5&view=energy"]
-    good += ["explorer.html#models=a+b"]
+    (folder / "explorer.html").write_text(f'<p id="top">{inputs}</p>')
+    good = ["#here", "explorer.html#top", "explorer.html#angle=9.5&models=a+b"]
     bad = ["#gone", "lost.html", "../outside.csv", "explorer.html#here", "explorer.html#angle=91"]
-    bad += ["explorer.html#view=motion", "explorer.html#angel=9", "explorer.html#models=a+c"]
-    links = "".join(f'<a href="{link}">' for link in [*good, "https://doi.org/10.1", *bad])
-    (tmp_path / "page.html").write_text(f'<p id="here">{links}<img src="a.svg"><img src="data:,">')
-    assert [link for _, link, _ in dead_links(tmp_path, ["page.html"])] == [*bad, "a.svg"]
+    bad += ["explorer.html#angel=9", "explorer.html#models=a+c"]
+    links = "".join(f'<a href="{link}">.</a>' for link in [*good, "https://doi.org/10.1", *bad])
+    (folder / "page.html").write_text(f'<p id="here">{links}</p>')
+    assert [link for _, link, _ in dead_links(folder, ["page.html"])] == bad
 
 
 def options(kinds, left):
@@ -220,8 +220,20 @@ def test_axe_finds_nothing_and_no_page_is_wider_than_its_window(figures, look, n
     assert look(figures / name) == NONE
 
 
-def test_axe_finds_nothing_of_ours_on_the_interface(interface, look):
-    assert look(interface.parent / INTERFACE, NOT_OURS) == NONE
+def test_axe_finds_nothing_of_ours_on_the_interface(site, look):
+    assert look(site / INTERFACE, NOT_OURS) == NONE
+
+
+def test_links_unfold_what_they_lead_to(figures, tab):
+    for page, names in (
+        ("report.html", ("fig6-rebound", "fig2-solved")),
+        ("sources.html", ("config-fig5", "config-rod")),
+    ):
+        tab.open(f"{(figures / page).as_uri()}#{names[0]}")
+        for name in names:
+            tab.evaluate(f"location.hash = '{name}'; new Promise((go) => setTimeout(go, 50))")
+            assert tab.evaluate(f"document.getElementById('{name}').closest('details').open")
+    assert not tab.problems
 
 
 FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>
@@ -230,23 +242,23 @@ FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>
 .faint { color: light-dark(#222, #333); }
 @media (width > 500px) { .phone { display: none; } }
 </style></head><body><main id="main"><h1>Words</h1>{{ part|safe }}</main></body></html>"""
-FAULTS = {
-    "<p>Good.": {},
-    '<img src="data:,">': {"light": ["image-alt"], "phone": ["image-alt"]},
-    "<details><button></button></details>": {"light": ["button-name"], "phone": ["button-name"]},
-    '<p class="faint">Unseen in the dark.': {"dark": ["color-contrast"]},
-    '<p style="width: 500px">Long.': {"phone": ["too wide"]},
-    '<div class="site"><ul style="overflow:hidden"><li style="min-width:500px">Long.</ul></div>': {
-        "phone": ["the bar is cut"]
-    },
-    '<h4 class="phone">On phones only': {"phone": ["heading-order"]},
-}
+FAULTS = """<img src="data:,"><details><button></button></details>
+<p class="faint">Unseen in the dark.</p><p style="width: 500px">Long.</p>
+<div class="site"><ul style="overflow:hidden"><li style="min-width:500px">Long.</li></ul></div>
+<h4 class="phone">On phones only</h4>"""
 
 
-@pytest.mark.parametrize("part", FAULTS)
-def test_a_fault_of_a_page_is_found(part, look, tmp_path):
+def test_faults_of_a_page_are_found(look, tmp_path):
     template = templates.environment(tmp_path).from_string(FAULTY)
-    (tmp_path / "page.html").write_text(template.render(part=part))
-    found = look(tmp_path / "page.html")
-    rules = {window: [fault.partition(":")[0] for fault in found[window]] for window in found}
-    assert rules == NONE | FAULTS[part]
+    found = {}
+    for name, part in (("good", "<p>Good.</p>"), ("bad", FAULTS)):
+        (tmp_path / f"{name}.html").write_text(template.render(part=part))
+        faults = look(tmp_path / f"{name}.html")
+        found[name] = {window: {f.partition(":")[0] for f in faults[window]} for window in faults}
+    assert found["good"] == dict.fromkeys(WINDOWS, set())
+    without_words = {"image-alt", "button-name"}
+    assert found["bad"] == {
+        "light": without_words,
+        "dark": {"color-contrast"},
+        "phone": without_words | {"too wide", "the bar is cut", "heading-order"},
+    }

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from matplotlib import font_manager
 from matplotlib.collections import Collection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -14,7 +15,8 @@ from PIL import Image
 from stronge1994 import csv_tables
 from stronge1994.curve_names import is_of_paper, is_shifted
 from stronge1994.figures.shared import drawing as drawings
-from stronge1994.figures.shared.drawing import slide
+from stronge1994.figures.shared.curves import measured as models_beside
+from stronge1994.figures.shared.drawing import house_style, measured
 from stronge1994.plan import figures
 from stronge1994.run import plans
 
@@ -61,16 +63,31 @@ def shown(picture):
     return b"".join(np.asarray(part).tobytes() for part in numbers(picture))
 
 
+class Watched(dict):
+    """Columns of a curve, which know whether a picture has asked for them."""
+
+    asked = False
+
+    def __getitem__(self, column):
+        self.asked = True
+        return super().__getitem__(column)
+
+
+@pytest.mark.parametrize("most", [2, pytest.param(1000, marks=pytest.mark.long)])
 @pytest.mark.parametrize("figure", figures.stated())
-def test_a_picture_shows_every_curve_of_its_table(given, figure):
-    """A curve whose numbers change looks different."""
+def test_a_picture_shows_every_curve_of_its_table(given, figure, most):
+    """It asks for each, and looks different if the numbers of one change: `long` tries all."""
     curves, draw = given(figure)
-    before = shown(draw(curves))
-    assert before == shown(draw(curves))
-    for name, curve in curves.items():
-        if not is_shifted(name) and not re.search(NOT_DRAWN.get(figure, "^$"), name):
-            changed = {c: v * 1.01 if v.dtype.kind == "f" else v for c, v in curve.items()}
-            assert shown(draw(curves | {name: changed})) != before, name
+    watched = {name: Watched(curve) for name, curve in curves.items()}
+    before = shown(draw(watched))
+    compared = NOT_DRAWN.get(figure, "^$")
+    names = [n for n in curves if not is_shifted(n) and not re.search(compared, n)]
+    assert [name for name in names if not watched[name].asked] == []
+    places = np.linspace(0, len(names) - 1, min(most, len(names)))
+    for name in [names[round(place)] for place in places]:
+        curve = curves[name]
+        changed = {c: v * 1.01 if v.dtype.kind == "f" else v for c, v in curve.items()}
+        assert shown(draw(curves | {name: changed})) != before, name
 
 
 @pytest.mark.parametrize("figure", [figure for figure in figures.stated() if is_of_paper(figure)])
@@ -91,15 +108,67 @@ def test_nothing_written_lies_on_something_else_or_is_cut_off(given, figure):
 
 
 @pytest.mark.parametrize("figure", figures.with_trait("slide"))
-def test_a_slide_fills_a_projector_and_nothing_is_cut_off(given, figure, tmp_path):
-    curves, draw = given(figure)
-    files = {ground: str(tmp_path / f"{ground}.png") for ground in ("light", "dark")}
-    slide.save(draw(curves), **figures.stated()[figure]["slide"], **files)
+def test_a_slide_fills_a_projector_and_nothing_is_cut_off(first_run, figure):
     for ground, dark in (("light", False), ("dark", True)):
-        pixels = np.asarray(Image.open(files[ground]).convert("L"), float)
+        slide = first_run[0] / f"figures/slides/{figure}_{ground}.png"
+        pixels = np.asarray(Image.open(slide).convert("L"), float)
         assert pixels.shape == (1080, 1920) and (np.median(pixels) < 30) == dark
         edges = [pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]]
         assert np.ptp(np.concatenate(edges)) == 0
+
+
+def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, first_run):
+    curves, draw = given("trade")
+    case = ("0.8", "viscous")
+    rows = csv_tables.read_rows(first_run[0] / "data/other_codes/impacts.csv")
+    ours = curves["spheres.viscous, e = 0.8, viscous"]["time_100 [s]"][0]
+    wanted = [
+        (ours * float(row["times_table [1]"]), float(row["rms_velocity [mu v2(0)]"]))
+        for row in rows
+        if (row["restitution [1]"], row["loss"]) == case
+    ]
+    lines = [line for axes in draw(curves).axes for line in axes.lines]
+    named = [line for line in lines if line.get_label() in ("LAMMPS", "pooltool")]
+    points = np.vstack([line.get_xydata() for line in named])
+    assert len(wanted) == 11
+    for point in wanted:
+        assert np.isclose(points, point, rtol=1e-9).all(axis=1).any(), point
+    for row in rows:
+        ratio = float(row["time [us]"]) / float(row["table_time [us]"])
+        assert float(row["times_table [1]"]) == pytest.approx(ratio, rel=0.01)
+
+
+# Parts that the drawings share
+
+
+def test_a_line_has_the_numbers_and_names_of_its_columns():
+    axes = house_style.new(2).subplots()
+    curves = {"lumped, e = 0.5": {"time [t_c]": np.arange(3.0), "spin_y [rad/s]": np.ones(3)}}
+    rows = np.array([True, False, True])
+    line = house_style.line(axes, curves, *curves, "time [t_c]", "spin_y [rad/s]", rows)
+    assert line.get_xydata() == pytest.approx(np.array([[0, 1], [1, np.nan], [2, 1]]), nan_ok=True)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time, $t_c$", "spin y, rad/s")
+    assert line.get_label() == "lumped, $e = 0.5$"
+
+
+def test_letters_are_found_and_restitutions_differ_in_their_lines():
+    """Also where a machine's list of fonts lacks them."""
+    assert font_manager.findfont(house_style.STYLE["font.family"], fallback_to_default=False)
+    patterns = [house_style.of_restitution(e) for e in (0, 0.2, 0.5, 0.8, 0.9, 1)]
+    assert len(set(patterns)) == len(patterns)
+    assert all(dashes == "-" or dashes[1][0] > dashes[1][1] for dashes in patterns), "none dotted"
+
+
+def test_each_measured_series_has_a_panel_with_every_model():
+    sphere = {"mass_ratio": 3.5, "stiffness_ratio": 1.2, "restitution": 0.99, "friction": 0.2}
+    models = ["rigid", "laws.smith", "laws.brach", "lumped.viscous", "spheres.plastic"]
+    curves = models_beside.curves(sphere, models, 40, 1e-3, {"restitution": 0.02})
+    series = {"x": np.array([20.0, 40.0]), "y": np.array([0.1, 0.3])}
+    series |= {"sigma": (0.4, np.array([0.02, 0.05]))}
+    shares = "tangential_restitution [1]", "centre_restitution [1]"
+    points = {f"ball/{name[0]}": series | {"axes": ("angle [deg]", name)} for name in shares}
+    figure = measured.draw(curves, {}, points)
+    assert [len(axes.lines) - 5 for axes in figure.axes] == [5, 5]  # error bars have five
 
 
 def texts(picture):

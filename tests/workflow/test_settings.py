@@ -4,7 +4,6 @@ Where the solver does not reach its tolerance, its error is one sentence that sa
 of the figure diverge.
 """
 
-import copy
 import math
 import warnings
 
@@ -16,7 +15,7 @@ from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import solving
 from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
-from tests.workflow.project import ROOT
+from tests.workflow.project import ROOT, ledger
 
 SCHEMA = configuration.schema()
 # What only makes a picture finer, and its table more exact, while another setting is tried.
@@ -37,36 +36,32 @@ LARGE = {"samples": 1000, "solved": 100, "steps": 64, "circles": 16, "most_phase
 UNLIMITED = 1e6  # instead of an end that is not limited
 # Between the ends of the two groups that figures share; those of the paper's sphere are 3.5, 1.21.
 SHARED = {"mass_ratio": [1.0, 1.2, 20.0], "stiffness_ratio": [0.01, 2.5, 100.0]}
-# Figures whose curves take less than a second.
-DAILY = ["fig2", "fig3", "fig4", "fig7", "fig8", "micro_slip"]
+# A figure whose curves take less than a second; all others are `long`.
+DAILY = ["fig3"]
 
 
 def _resolved(node):
     """A node of the schema, in place of a reference to it."""
     while "$ref" in node:
         base = SCHEMA["$defs"][node["$ref"].split("/")[-1]]
-        more = {key: value for key, value in node.items() if key != "$ref"}
-        items = (
-            {"items": base["items"] | more["items"]} if "items" in base and "items" in more else {}
-        )
-        node = base | more | items
+        items = {"items": base.get("items", {}) | node["items"]} if "items" in node else {}
+        node = base | {key: value for key, value in node.items() if key != "$ref"} | items
     return node
 
 
 def _numbers(node, key):
     """Both ends of what a number may be, and one between."""
     node = _resolved(node)
-    if "enum" in node:
-        return node["enum"]
-    if node["type"] == "boolean":
-        return [True, False]
-    step = node.get("multipleOf", 1) if node["type"] == "integer" else 1e-6
+    if "enum" in node or node["type"] == "boolean":
+        return node.get("enum", [True, False])
+    whole = node["type"] == "integer"
+    step = node.get("multipleOf", 1) if whole else 1e-6
     low = node.get("minimum", node.get("exclusiveMinimum", -UNLIMITED) + step)
     high = node.get("maximum", node.get("exclusiveMaximum", UNLIMITED) - step)
     high = min(high, LARGE.get(key, high))
     middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
-    if node["type"] == "integer":
-        middle, low = (math.ceil(number / step) * step for number in (middle, low))
+    if whole:
+        low, middle = (math.ceil(number / step) * step for number in (low, middle))
     return [low, middle, high]
 
 
@@ -76,10 +71,8 @@ def _values(node, key):
     if node.get("type") != "array":
         return _numbers(node, key)
     if "prefixItems" in node:
-        return [
-            list(pair)
-            for pair in zip(*(_numbers(n, key) for n in node["prefixItems"]), strict=True)
-        ]
+        ends = [_numbers(part, key) for part in node["prefixItems"]]
+        return [list(pair) for pair in zip(*ends, strict=True)]
     numbers = _numbers(node["items"], key)
     low, high = node.get("minItems", 0), node.get("maxItems", 3)
     if low == high == 2:
@@ -98,57 +91,37 @@ def _cases(settings, path=()):
                 yield (*path, key), value
 
 
-def _with(settings, path, value):
-    """Settings of a figure, quick ones but for the one that is tried."""
-    chosen = copy.deepcopy(settings)
-
-    def hasten(group):
-        for key, old in group.items():
-            if isinstance(old, dict):
-                hasten(old)
-            elif key in QUICK:
-                group[key] = (
-                    min(old, QUICK[key]) if key in LARGE and isinstance(old, int) else QUICK[key]
-                )
-
-    hasten(chosen)
-    group = chosen
-    for key in path[:-1]:
-        group = group[key]
-    group[path[-1]] = value
-    return chosen
+def _quick(group):
+    """Settings of a figure that take little time."""
+    own = {key: QUICK.get(key, value) for key, value in group.items()}
+    return own | {key: _quick(value) for key, value in group.items() if isinstance(value, dict)}
 
 
-OWN = [
-    pytest.param(name, path, value, id=f"{name}-{'.'.join(path)}-{value}", marks=pytest.mark.long)
-    for name, stated in figures.stated().items()
-    for path, value in _cases(stated["settings"])
-]
-OF_ALL = [
-    pytest.param(
-        name,
-        (key,),
-        value,
-        id=f"{name}-{key}-{value}",
-        marks=() if name in DAILY else pytest.mark.long,
-    )
-    for name, stated in figures.stated().items()
-    for key in stated.get("shared", [])
-    for value in SHARED[key]
-]
+def _with(group, path, value):
+    key, *rest = path
+    return group | {key: _with(group[key], rest, value) if rest else value}
 
 
-@pytest.mark.parametrize(("name", "path", "value"), [*OF_ALL, *OWN])
+def _tried():
+    """Each figure with each value of the groups that it shares, and of its own settings."""
+    for name, stated in figures.stated().items():
+        shared = [((key,), value) for key in stated.get("shared", []) for value in SHARED[key]]
+        for path, value in [*shared, *_cases(stated["settings"])]:
+            daily = name in DAILY and path[0] in SHARED
+            marks = () if daily else pytest.mark.long
+            yield pytest.param(name, path, value, id=f"{name}-{path}-{value}", marks=marks)
+
+
+@pytest.mark.parametrize(("name", "path", "value"), list(_tried()))
 def test_a_setting_that_is_allowed_is_drawn_and_judged(
     name, path, value, inventory, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(ROOT)
-    whole = reference_data.load_yaml(configuration.FILE)
-    own = _with(figures.values(figures.stated()[name]["settings"]), path, value)
+    whole = reference_data.load_yaml(configuration.FILE)  # as a user has it, short
+    own = _with(_quick(figures.values(figures.stated()[name]["settings"])), path, value)
     change = {path[0]: own.pop(path[0])} if path[0] in SHARED else {}
     config = configuration.complete(whole | change | {"figures": {name: own}})
-    noted = [entry.get("documented", {}) for entry in config["comparisons"].values()]
-    configuration.check_config(config, inventory, [note.get("entry") for note in noted])
+    configuration.check_config(config, inventory, ledger())
     planned = plan.plan_of_figure(config, inventory, name)
     judged = plan.plan_of_judgement(config, inventory, name)["settings"]
     curves = str(tmp_path / "curves.csv")

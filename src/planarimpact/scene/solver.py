@@ -201,7 +201,9 @@ def _result(
     models = list(dict.fromkeys(rung.model for rung in rungs.RUNGS))
     model = np.array([models.index(rung.model) for rung in rungs.RUNGS])[answers.place]
     # Without friction there is no force of it, also where the normal force is not known.
-    friction = np.where(peak > 0, impacts.unit / impacts.v2 * peak * rows.peak_normal, 0.0)
+    friction = np.where(
+        peak * impacts.unit > 0, impacts.unit / impacts.v2 * peak * rows.peak_normal, 0.0
+    )
     added = [
         answers.velocity,
         pd.Categorical.from_codes(model, models),

@@ -22,9 +22,6 @@ def stop(moment):
         plan.unlink(missing_ok=True)
         if how == "kill":
             os.kill(os.getpid(), signal.SIGKILL)
-        if how == "fill":  # the disk
-            with open("/dev/full", "w") as file:
-                file.write("1")
         if how == "fail":
             sys.exit(1)
 

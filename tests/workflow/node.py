@@ -1,0 +1,89 @@
+"""The scripts of the explorer without a browser: run by the node that comes with Playwright."""
+
+import contextlib
+import json
+import subprocess
+from pathlib import Path
+
+from playwright._impl._driver import compute_driver_executable
+
+from stronge1994.explorer import page
+
+FOLDER = Path(__file__).parents[2] / "workflow/explorer"
+# Those that do not look at their page as they are loaded.
+SCRIPTS = ["solver", "continuum", "check", "models", "flight", "charts", "arrows", "patch"]
+SCRIPTS += ["diagram", "words"]
+# What is drawn is kept in elements that nobody sees, by their ids.
+BASE = f"""
+const CONTINUUM_ERROR = {page.CONTINUUM_ERROR};
+const drawn = {{}};
+const document = {{ getElementById: (id) => drawn[id] ??= {{
+  style: {{}}, classList: {{ toggle() {{}} }}, querySelectorAll: () => [],
+  setAttribute(name, value) {{ this[name] = value; }},
+  querySelector: (part) => document.getElementById(`${{id}} ${{part}}`),
+}} }};
+// One impact as a page knows it.
+function impact_of(style, groups) {{
+  const contact = models.contact(style, groups);
+  return {{ ...groups, contact, states: {{}}, limit: models.slip_throughout_limit(style, groups),
+    phases: models.phases(contact.rows) }};
+}}
+"""
+# Answers each line, an expression, with its value or its error.
+PROGRAM = """
+const vm = require("node:vm");
+const context = vm.createContext();
+require("node:readline").createInterface({ input: process.stdin }).on("line", (line) => {
+  let answer;
+  try {
+    const value = vm.runInContext(JSON.parse(line), context, { timeout: 60000 });
+    answer = [JSON.stringify(value) ?? "null", null];
+  } catch (error) {
+    answer = [null, String(error.stack ?? error)];
+  }
+  console.log(JSON.stringify(answer));
+});
+"""
+
+
+class Error(Exception):
+    """What a script threw, with its stack."""
+
+
+class Scripts:
+    """The scripts in a running process."""
+
+    def __init__(self, process):
+        self._process = process
+        texts = [(FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS]
+        self.evaluate("\n".join([BASE, *texts, "null"]))
+
+    def evaluate(self, expression):
+        """Value of a JavaScript expression; its exception, or a minute without an end, raises."""
+        self._process.stdin.write(json.dumps(expression) + "\n")
+        self._process.stdin.flush()
+        value, problem = json.loads(self._process.stdout.readline())
+        if problem is not None:
+            raise Error(problem)
+        return json.loads(value)
+
+    def map(self, function, rows):
+        """Values of a JavaScript function for many arguments."""
+        return self.evaluate(f"{json.dumps(rows)}.map({function})")
+
+
+@contextlib.contextmanager
+def scripts():
+    """The scripts, loaded anew."""
+    node, _ = compute_driver_executable()
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen([node, "-e", PROGRAM], text=True, encoding="utf-8", **pipes) as process:
+        yield Scripts(process)
+
+
+def expression(name, old="", new=""):
+    """A script as an expression, after one change of its text."""
+    text = (FOLDER / f"{name}.js").read_text(encoding="utf-8")
+    assert old in text
+    body = text.replace(old, new, 1).replace(f"const {name} = ", "return ", 1)
+    return f"(() => {{ {body} }})()"
