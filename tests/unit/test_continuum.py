@@ -2,14 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
-from scipy.optimize import brentq
 
 from planarimpact import ConvergenceError, continuum
 from planarimpact.continuum import annuli, inelastic
-from planarimpact.normal_impact import kelvin_voigt, yielding
 
-EXACT = {"rtol": 1e-11, "atol": 1e-13}
 # What is tested of them here does not depend on how exact they are.
 COARSE = {continuum.rebound: {"tolerance": 1e-3}, annuli.rebound: {"circles": 8, "steps": 64}}
 
@@ -77,35 +73,6 @@ def test_impacts_without_an_answer_are_all_named(monkeypatch):
     assert refused.value.impacts.tolist() == [0, 2, 3]
 
 
-@pytest.mark.parametrize("tau", [1e-4, 0.05, 0.3, 1.0, 3.0])
-def test_restitution_of_viscous_spheres_by_integration_in_time(tau):
-    """Kuwabara & Kono in loading, F = (4/3) D^(3/2) in unloading, by SciPy and in plain time."""
-
-    def force(d, v):
-        if v > 0:
-            return 4 / 3 * (max(d, 0) ** 1.5 + 1.5 * tau * max(d, 0) ** 0.5 * v)
-        return 4 / 3 * max(d + tau * v, 0.0) ** 1.5
-
-    def stop(event):
-        event.terminal, event.direction = True, -1
-        return event
-
-    def slopes(_, y):
-        return [y[1], -force(*y)]
-
-    # The first instants by a series: F is not differentiable at d = 0.
-    early = 1e-7
-    start = [early - 2 * tau * (4 / 15) * early**2.5, 1 - 2 * tau * (2 / 3) * early**1.5]
-    ends = stop(lambda _, y: y[1]), stop(lambda _, y: y[0] + tau * y[1])
-    loading = solve_ivp(slopes, (0, 50), start, events=ends[0], method="DOP853", **EXACT)
-    after = [loading.y[0, -1], 0.0]
-    unloading = solve_ivp(slopes, (0, 500), after, events=ends[1], method="DOP853", **EXACT)
-    found = kelvin_voigt.restitution(np.array([tau]))
-    assert found == pytest.approx(-unloading.y[1, -1], abs=1e-8)
-    back = kelvin_voigt.relaxation_time(found)
-    assert back == pytest.approx(tau, rel=1e-9)
-
-
 @pytest.mark.parametrize("loss", continuum.LOSSES)
 def test_the_normal_motion_obeys_newton_and_the_springs_carry_its_force(loss):
     e = np.array([0.999999, 0.9, 0.6, 0.3, 0.1])
@@ -130,25 +97,3 @@ def test_the_normal_motion_obeys_newton_and_the_springs_carry_its_force(loss):
         )
         place = motion.place(motion.velocity[k])
         np.testing.assert_allclose(place, motion.edge(k) / 2048, atol=1e-8)
-
-
-@pytest.mark.parametrize("yield_velocity", [0.001, 0.05, 0.4, 0.99])
-def test_restitution_of_elastic_plastic_spheres_is_the_work_of_their_forces(yield_velocity):
-    """Thornton's closed form against the energies of loading and unloading, by quadrature."""
-    d_yield = (15 / 16 * yield_velocity**2) ** 0.4
-
-    def loading(d):
-        if d <= d_yield:
-            return 4 / 3 * d**1.5
-        # pi p_y with p_y = (2/pi) sqrt(d_y), the largest pressure of Hertz at d_y.
-        return 4 / 3 * d_yield**1.5 + 2 * np.sqrt(d_yield) * (d - d_yield)
-
-    def work(d):
-        return quad(loading, 0, d, points=[min(d_yield, d)], epsabs=1e-13, limit=200)[0]
-
-    largest = brentq(lambda d: work(d) - 0.5, 1e-3, 1e3, xtol=1e-13)
-    radius = 4 / 3 * largest**1.5 / loading(largest)  # R_p
-    back = quad(lambda z: 4 / 3 * np.sqrt(radius) * z**1.5, 0, largest / radius, epsabs=1e-13)[0]
-    found = yielding.restitution(np.array([yield_velocity]))
-    assert found == pytest.approx(np.sqrt(2 * back), abs=1e-9)
-    assert yielding.yield_velocity(found) == pytest.approx(yield_velocity, rel=1e-9)
