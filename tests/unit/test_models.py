@@ -16,21 +16,13 @@ COARSE = {
     "annuli": {"circles": 6, "steps": 48},
 }
 MODELS = list(models.MODELS.values())
-# Incidence from which a model slides throughout, (1 + e) m2/m1 less what compliance holds.
+# Incidence from which a model slides throughout, (1 + e) m2/m1 less what compliance holds. That of
+# lumped and continuum is held with their other laws.
 SLIDES_FROM = {
     "rigid": lambda beta, zeta2, e: (1 + e) * beta,
     "laws.smith": lambda beta, zeta2, e: (1 + e) * beta,
     "laws.brach": lambda beta, zeta2, e: (1 + e) * beta / 1.4,
-    "lumped": lumped.slip_throughout_limit,
-    **{
-        f"lumped.{loss}": partial(lumped.slip_throughout_limit, loss=loss) for loss in lumped.LOSSES
-    },
-    "continuum": continuum.slip_throughout_limit,
-    **{
-        f"{room}.{loss}": partial(continuum.slip_throughout_limit, loss=loss)
-        for room in ("continuum", "spheres")
-        for loss in continuum.LOSSES
-    },
+    "spheres.viscous": partial(continuum.slip_throughout_limit, loss="viscous"),
     "spheres.plastic": lambda beta, zeta2, e: (
         zeta2 * table.of_one(table.shipped(), 0.0, beta / zeta2, e, True)[1]
     ),
