@@ -1,4 +1,4 @@
-"""Spheres in C and JavaScript: the answers of Python, laws of mechanics, and what is refused."""
+"""Spheres in C and JavaScript: the answers of Python, and what is refused."""
 
 import re
 import shlex
