@@ -53,15 +53,6 @@ def test_a_good_folder_is_read_and_bytecode_is_none(folder):
     }  # fmt: skip
 
 
-def test_the_figures_of_the_paper_come_first(folder):
-    for name in ("fig9", "angle", "fig2"):
-        (folder / "fig10").rename(folder / name)
-        (folder / "fig10").mkdir()
-        for file in (folder / name).iterdir():
-            (folder / "fig10" / file.name).write_text(file.read_text())
-    assert list(figures.stated()) == ["fig2", "fig9", "fig10", "angle"]
-
-
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [

@@ -48,37 +48,29 @@ def test_a_few_of_the_smallest_numbers_are_no_error(points):
     assert lost(points)[0] > 0
 
 
-@pytest.mark.parametrize("how", ["raises", "warns", "gives NaN"])
+@pytest.mark.parametrize("how", ["warns", "gives NaN"])
 def test_one_impact_that_fails_has_no_digits_and_stops_no_other(points, how, monkeypatch):
     rebound = lumped.rebound
 
     def failing(incidence, *groups):
         found = rebound(incidence, *groups)
-        if 2.0 in np.ravel(incidence):
-            if how == "raises":
-                raise ArithmeticError("oh")
-            if how == "warns":
-                warnings.warn("oh", RuntimeWarning, stacklevel=2)
-            if how == "gives NaN":
-                return found._replace(velocity=np.where(incidence == 2.0, np.nan, found.velocity))
+        if how == "gives NaN":
+            return found._replace(velocity=np.where(incidence == 2.0, np.nan, found.velocity))
+        if 2.0 in incidence:
+            warnings.warn("oh", RuntimeWarning, stacklevel=2)
         return found
 
     monkeypatch.setattr(lumped, "rebound", failing)
     assert lost(points).tolist() == [0, 0, stability.DIGITS, 0]
 
 
-@pytest.mark.parametrize(
-    ("friction", "excess"), [(-1.5, 0.5), (np.nan, 1.0), (ArithmeticError("oh"), 1.0)]
-)
+@pytest.mark.parametrize(("friction", "excess"), [(-1.5, 0.5), (np.nan, 1.0)])
 def test_friction_beyond_its_limit_is_found_in_either_direction(
     points, friction, excess, monkeypatch
 ):
-    """A contact that cannot be followed counts as wrong, its energy too."""
     history = lumped.history
 
     def wrong(*group, samples):
-        if isinstance(friction, Exception):
-            raise friction
         found = history(*group, samples)
         peak = max(found.events, key=lambda event: event.normal)  # at maximum compression, N = 1
         return found._replace(events=[peak._replace(friction=friction)])
@@ -86,8 +78,13 @@ def test_friction_beyond_its_limit_is_found_in_either_direction(
     monkeypatch.setattr(lumped, "history", wrong)
     found = stability.curves(points, 10)["contacts"]
     assert found["friction_excess [mu F2max]"] == pytest.approx([excess] * 2)
-    failed = isinstance(friction, Exception)
-    assert (found["energy_residual [1]"] == 1).all() == failed
+
+
+def test_a_contact_that_cannot_be_followed_counts_as_wrong(points, monkeypatch):
+    monkeypatch.delattr(lumped, "history")
+    found = stability.curves(points, 10)["contacts"]
+    assert found["friction_excess [mu F2max]"].tolist() == [1, 1]
+    assert found["energy_residual [1]"].tolist() == [1, 1]
 
 
 @pytest.mark.parametrize(

@@ -52,18 +52,6 @@ def test_waiting_is_not_measured(monkeypatch):
     assert found["time_1 [s]"] < 0.01
 
 
-def test_one_impact_is_solved_at_several_incidences_the_same_in_each_round():
-    calls = []
-
-    def seconds(x):
-        calls.append(x)
-        return 1.0
-
-    trade.times([seconds], (0, 8), [1], 10.0)
-    assert len(calls) == trade.ROUNDS * trade.ROUND_IMPACTS
-    assert len({float(x[0]) for x in calls}) == trade.ROUND_IMPACTS
-
-
 def test_a_batch_that_would_take_too_long_is_left_out_for_its_model_alone():
     watches = [lambda x: 1e-2 * x.size, lambda x: 1e-4 * x.size]
     for budget, batches in ((4.0, [{1, 300}, {1, 300, 1000}]), (0.0, [{1}, {1}])):

@@ -13,7 +13,6 @@ from planarimpact.bodies import Material
 from stronge1994 import csv_tables, curve_names, reference_data
 from stronge1994.figures.inelastic import curves as inelastic
 from stronge1994.figures.inelastic import trials as pair_trials
-from stronge1994.figures.rod import curves as rod
 from stronge1994.figures.rubber_sphere import curves as rubber
 from stronge1994.figures.yielding import curves as yielding
 from stronge1994.plan import config as configuration
@@ -195,25 +194,6 @@ def test_what_slides_throughout_has_the_velocity_of_its_friction():
     line = slides["incidence [mu v2(0)]"] - 3.5 * (1 + slides["restitution [1]"])
     assert len(slides) == 7
     np.testing.assert_allclose(slides["velocity [mu v2(0)]"], line, atol=2e-3)
-
-
-# The rod
-
-
-@pytest.mark.parametrize("ratio", ["0.6", "2.5"])
-def test_a_rigid_rod_jams_between_the_limits_of_the_closed_form(solved, ratio):
-    curve = solved("rod")[f"rigid, v1/v2 = {ratio}"]
-    low, high = rod.jam_limits(1.6)[2:]
-    tilt, jams = curve["tilt [deg]"], curve["jams [1]"]
-    assert jams[(tilt > low + 1e-9) & (tilt < high - 1e-9)].all()
-    assert not jams[(tilt < low - 1e-9) | (tilt > high + 1e-9)].any()
-
-
-def test_nothing_jams_up_to_four_thirds():
-    one = {"tilt": 25.0, "velocity_ratio": 10.0}
-    for friction, some in ((4 / 3, False), (4 / 3 + 0.01, True)):
-        curves = rod.curves(1.21, (-85, 85), [0.6, 2.5], friction, 0.9, 681, one)
-        assert some == any(c["jams [1]"].any() for c in curves.values() if "jams [1]" in c)
 
 
 # Error against time

@@ -44,25 +44,20 @@ def written(path, *sources):
 
 
 @every_notebook
-def test_sources_are_valid_and_without_outputs(book):
+def test_sources_are_valid_and_need_no_more_than_the_package(book):
     nbformat.validate(book)
-    for cell in code_of(book):
-        assert cell.outputs == [] and cell.execution_count is None
-        assert cell.source.startswith("# "), "the page takes its first line as a title"
-    assert "/home" not in str(book) and "http" not in str(book)
+    assert all(cell.outputs == [] for cell in code_of(book))
     assert "stronge1994" not in str([cell.source for cell in code_of(book)]), "not installed"
 
 
-def executed(book, look=lambda cell: None):
-    """Run the cells in this process, and look at the pictures after each."""
+def executed(book):
+    """Run the cells in this process."""
     matplotlib.use("Agg")
     names = {}
     with matplotlib.rc_context():
         try:
             for cell in code_of(book):
                 exec(cell.source, names)
-                look(cell)
-                plt.close("all")
         finally:
             plt.close("all")
 
@@ -85,16 +80,11 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
     project, _ = first_run
     pages = {kind: (project / f"figures/{kind}{name}.html").read_text() for kind in PAGES}
     for page in pages.values():
-        assert "$" not in re.sub(r"<(pre|script).*?</\1>", "", page, flags=re.S)
         assert not re.search(r'src="(?!explorer\.html\?stage(=micro)?#|data:)|url\(|@import', page)
         linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
         assert all(re.fullmatch(r"[a-z0-9_]+\.html", file) for file in linked)
-    page = pages[""]
-    assert "Answer to exercise" not in page and "<script" not in page
-    assert page.count(f"answers_{name}.html") == 1, "only in the line for the teacher"
-    assert f"slides_{name}.html" in page and "explorer.html" in page
-    assert all(len(words) > 20 for words in re.findall(r'<img alt="([^"]*)"', page))
-    assert "Answer to exercise" in pages["answers_"]
+    told = {kind: "Answer to exercise" in page for kind, page in pages.items()}
+    assert told == {"": False, "slides_": False, "answers_": True}
     executed = nbformat.read(project / f"results/notebooks/{name}.ipynb", as_version=4)
     assert all(cell.execution_count for cell in code_of(executed))
     log = (project / f"results/logs/lecture_{name}.log").read_text()
