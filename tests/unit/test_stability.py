@@ -32,14 +32,6 @@ def lost(points):
     return stability.curves(points, 10)["impacts"]["digits_lost [1]"]
 
 
-def test_equal_answers_lose_nothing(points):
-    found = stability.curves(points, 10)
-    assert found["impacts"]["digits_lost [1]"].tolist() == [0, 0, 0, 0]
-    assert found["impacts"]["digits_velocity [1]"].tolist() == [16, 16, 16, 16]
-    assert found["contacts"]["phases [1]"].tolist() == [2, 3]
-    assert found["contacts"]["energy_residual [1]"].max() < 1e-15
-
-
 def test_digits_are_lost_beyond_what_the_condition_allows(points):
     points["velocity"][3] *= 1 + 1e-12
     points["condition_velocity"][3] = 999.0

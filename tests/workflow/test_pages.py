@@ -149,15 +149,6 @@ def test_each_example_of_the_interface_runs_as_the_first_page_says(site, every):
     assert runner.failures == 0
 
 
-@pytest.mark.parametrize("name", ["report.html", "ledger.html", "note.html", "sources.html"])
-def test_symbols_are_not_shown_as_they_are_typed(figures, name):
-    text = (figures / name).read_text(encoding="utf-8")
-    text = re.sub(r"<(math|code|pre|script|style|svg)\b.*?</\1>", " ", text, flags=re.S)
-    text = re.sub("<[^>]*>", " ", text)
-    typed = r"\b(?:alpha|beta|kappa|mu|nu|omega|Omega|theta|zeta)\b|\w\^|\b[A-Za-z]_\w"
-    assert re.findall(typed, text) == []
-
-
 def test_presets_of_the_explorer_are_states_that_it_allows(figures):
     page = parsed(figures / "explorer.html")
     states = [state for state in page.controls["preset"]["options"] if state]

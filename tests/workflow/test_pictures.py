@@ -6,14 +6,12 @@ import re
 
 import numpy as np
 import pytest
-from matplotlib import font_manager
 from matplotlib.collections import Collection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from PIL import Image
 
 from stronge1994 import csv_tables
-from stronge1994.curve_names import is_of_paper, is_shifted
+from stronge1994.curve_names import is_shifted
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import measured as models_beside
 from stronge1994.figures.shared.drawing import house_style, measured
@@ -90,33 +88,6 @@ def test_a_picture_shows_every_curve_of_its_table(given, figure, most):
         assert shown(draw(curves | {name: changed})) != before, name
 
 
-@pytest.mark.parametrize("figure", [figure for figure in figures.stated() if is_of_paper(figure)])
-def test_nothing_written_lies_on_something_else_or_is_cut_off(given, figure):
-    curves, draw = given(figure)
-    picture = draw(curves)
-    picture.draw_without_rendering()
-    written = [text for text in texts(picture) if text.get_text() and text.get_visible()]
-    boxes = [(text.get_text(), text.get_window_extent()) for text in written]
-    edge = picture.bbox
-    for place, (words, box) in enumerate(boxes):
-        assert edge.x0 <= box.x0 and box.x1 <= edge.x1, words
-        assert edge.y0 <= box.y0 and box.y1 <= edge.y1, words
-        # Boxes that touch by a pixel belong to letters that do not.
-        inner = box.padded(-1)
-        on = [other for other, its in boxes[place + 1 :] if inner.overlaps(its.padded(-1))]
-        assert not on, (words, on)
-
-
-@pytest.mark.parametrize("figure", figures.with_trait("slide"))
-def test_a_slide_fills_a_projector_and_nothing_is_cut_off(first_run, figure):
-    for ground, dark in (("light", False), ("dark", True)):
-        slide = first_run[0] / f"figures/slides/{figure}_{ground}.png"
-        pixels = np.asarray(Image.open(slide).convert("L"), float)
-        assert pixels.shape == (1080, 1920) and (np.median(pixels) < 30) == dark
-        edges = [pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]]
-        assert np.ptp(np.concatenate(edges)) == 0
-
-
 def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, first_run):
     curves, draw = given("trade")
     case = ("0.8", "viscous")
@@ -151,14 +122,6 @@ def test_a_line_has_the_numbers_and_names_of_its_columns():
     assert line.get_label() == "lumped, $e = 0.5$"
 
 
-def test_letters_are_found_and_restitutions_differ_in_their_lines():
-    """Also where a machine's list of fonts lacks them."""
-    assert font_manager.findfont(house_style.STYLE["font.family"], fallback_to_default=False)
-    patterns = [house_style.of_restitution(e) for e in (0, 0.2, 0.5, 0.8, 0.9, 1)]
-    assert len(set(patterns)) == len(patterns)
-    assert all(dashes == "-" or dashes[1][0] > dashes[1][1] for dashes in patterns), "none dotted"
-
-
 def test_each_measured_series_has_a_panel_with_every_model():
     sphere = {"mass_ratio": 3.5, "stiffness_ratio": 1.2, "restitution": 0.99, "friction": 0.2}
     models = ["rigid", "laws.smith", "laws.brach", "lumped.viscous", "spheres.plastic"]
@@ -169,17 +132,3 @@ def test_each_measured_series_has_a_panel_with_every_model():
     points = {f"ball/{name[0]}": series | {"axes": ("angle [deg]", name)} for name in shares}
     figure = measured.draw(curves, {}, points)
     assert [len(axes.lines) - 5 for axes in figure.axes] == [5, 5]  # error bars have five
-
-
-def texts(picture):
-    """All that is written in a figure; ticks outside the axes are not drawn."""
-    yield from (text for legend in picture.legends for text in legend.get_texts())
-    above = [part for axes in picture.axes for part in axes.child_axes]
-    for axes in [*picture.axes, *above]:
-        yield from (axes.title, *axes.texts)
-        for axis in (axes.xaxis, axes.yaxis):
-            low, high = sorted(axis.get_view_interval())
-            yield axis.label
-            for tick in [*axis.get_major_ticks(), *axis.get_minor_ticks()]:
-                if low <= tick.get_loc() <= high:
-                    yield from (tick.label1, tick.label2)

@@ -1,10 +1,6 @@
 """What a run says in the end."""
 
-import logging
-
 import pytest
-from snakemake.exceptions import LockException, WorkflowError, print_exception
-from snakemake.logging import logger
 
 from stronge1994 import csv_tables
 from stronge1994.run import gate, last_words, plans, record
@@ -26,18 +22,6 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "results/logs").mkdir(parents=True)
     return tmp_path
-
-
-def test_the_last_words_on_a_locked_folder_are_what_helps(monkeypatch):
-    said = []
-    handler = logging.Handler()
-    handler.emit = lambda record: said.append(record.getMessage())
-    monkeypatch.setattr(logger, "handlers", [handler])
-    monkeypatch.setattr(logger, "filters", [last_words.Help(["all", "fig2"])])
-    for error in (LockException(), WorkflowError("oh")):
-        print_exception(error)
-    assert "cannot be locked" in said[0] and said[0].splitlines()[-1] == last_words.UNLOCK
-    assert "oh" in said[1] and last_words.UNLOCK not in said[1]
 
 
 def ended(folder, log=None, passed=False, verdict="agrees", holds="yes"):
