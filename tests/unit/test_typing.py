@@ -1,4 +1,4 @@
-"""What users and editors rely on: types, docstrings, and a package that stands alone."""
+"""What users and editors rely on: types, docstrings, and a quick import."""
 
 import importlib
 import inspect
