@@ -243,7 +243,7 @@ def test_one_impact_is_that_of_many(seed):
     assert plain > 0.6 * x.size and other_rung < 0.05 * x.size
 
 
-@pytest.mark.parametrize("count", [50, pytest.param(10_000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [40, pytest.param(10_000, marks=pytest.mark.long)])
 def test_one_path_for_numbers_of_every_size(count):
     """One impact alone and in an array: the same answer, or the same refusal, never NaN or inf.
 
@@ -346,7 +346,6 @@ def answers_of_all_paths(pair, normal, velocity):
     ("loss", "zeta2", "e"),
     [
         ("viscous", 1.5, 0.35),
-        ("plastic", 1.5, 0.35),
         ("plastic", 1.0, 0.2),
         ("viscous", 1.2, 1),
     ],
