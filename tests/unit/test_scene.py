@@ -201,6 +201,7 @@ def test_two_bodies_by_hand():
     impulse = m1 * 0.6 * (found.velocity - x)
     assert after["incidence"] == pytest.approx(x)
     assert after[AFTER] == pytest.approx(1.0 + impulse / ball.mass)
+    assert after["contact_velocity_after [m/s]"] == pytest.approx(0.6 * found.velocity)
     assert after["spin_after [rad/s]"] == pytest.approx(30.0 + 2.5 * impulse / ball.mass / 0.01)
     assert after["other_velocity_tangential_after [m/s]"] == pytest.approx(-impulse / 0.05)
     assert after["other_spin_after [rad/s]"] == pytest.approx(0.02 * impulse / 0.05 / 0.013**2)
