@@ -212,7 +212,8 @@ def sprayed(rng):
                 rows += [(zeta2, e, loss, x) for x in (*at, rng.uniform(0, 9))]
     zeta2, e, loss, x = map(np.array, zip(*rows, strict=True))
     pairs = Pair(friction=0.3, stiffness_ratio=zeta2, restitution=e, loss=loss)
-    return pairs, x * (1 + rng.choice(near, x.size))
+    distance = rng.choice(near, x.size)
+    return pairs, x * (1 + distance), distance
 
 
 LONG_SEEDS = (pytest.param(seed, marks=pytest.mark.long) for seed in range(30))
@@ -222,9 +223,9 @@ LONG_SEEDS = (pytest.param(seed, marks=pytest.mark.long) for seed in range(30))
 def test_one_impact_is_that_of_many(seed):
     """Both have the same answer, to rounding, and the single one is taken by its own function."""
     up, still, ball = np.array([0.0, 0.0, 1.0]), np.zeros(3), bodies.solid_sphere(0.01, 2500.0)
-    pairs, x = sprayed(np.random.default_rng(seed))
+    pairs, x, distance = sprayed(np.random.default_rng(seed))
     velocity = x[:, None] * [0.3, 0, 0] - up
-    many, plain, other_rung = collide(pairs, up, ball, velocity, still), 0, 0
+    many, plain = collide(pairs, up, ball, velocity, still), 0
     for i, row in enumerate(velocity):
         vectors, pair = [v.tolist() for v in (up, row, still, still, still)], pairs[i]
         if not one_impact.collide(pair, ball, WALL, vectors, 5e-3):
@@ -233,17 +234,17 @@ def test_one_impact_is_that_of_many(seed):
         # A float64 beside a threshold one may take the formula, and the other one the table.
         error = max(one.error_bound, many.error_bound[i])
         same_rung = one.error_bound == many.error_bound[i]
+        assert same_rung or abs(distance[i]) < 1e-14
         np.testing.assert_allclose(
             one.velocity, many.velocity[i], rtol=1e-12, atol=1e-12 if same_rung else error
         )
         assert one.regime == many.regime[i] or not same_rung
         assert one.incidence == pytest.approx(many.incidence[i], rel=1e-14)
         assert one.restitution == many.restitution[i] and one.loss == many.loss[i]
-        other_rung += not same_rung
-    assert plain > 0.6 * x.size and other_rung < 0.05 * x.size
+    assert plain > 0.6 * x.size
 
 
-@pytest.mark.parametrize("count", [50, pytest.param(10_000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [40, pytest.param(10_000, marks=pytest.mark.long)])
 def test_one_path_for_numbers_of_every_size(count):
     """One impact alone and in an array: the same answer, or the same refusal, never NaN or inf.
 
@@ -346,7 +347,6 @@ def answers_of_all_paths(pair, normal, velocity):
     ("loss", "zeta2", "e"),
     [
         ("viscous", 1.5, 0.35),
-        ("plastic", 1.5, 0.35),
         ("plastic", 1.0, 0.2),
         ("viscous", 1.2, 1),
     ],

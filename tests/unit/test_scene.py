@@ -70,8 +70,7 @@ def every_kind(law=None):
         {"restitution": 1.0, "loss": ""},
         {},
         {"loss": " plastic"},
-        {"restitution": 0.1, "friction": 2.0},
-        {"restitution": 0.2, "loss": "plastic", "other_gyration [m]": 0.015},
+        {"restitution": 0.1, "loss": "plastic", "other_gyration [m]": 0.015},
         {"friction": 0.01},
         {"friction": 0.01, "loss": "plastic"},
         {"friction": 0.0},
@@ -136,7 +135,7 @@ def test_a_row_is_what_collide_says_alone(law):
 
 def test_neither_order_nor_blocks_show(monkeypatch):
     """The index is that of the table, also where it names rows twice."""
-    rows = every_kind().drop(3).set_axis([*"abcdefgaa"])  # row 3 takes its time
+    rows = every_kind().drop(3).set_axis([*"abcdefaa"])  # row 3 takes its time
     whole = scene.solve(rows)
     order = np.random.default_rng(5).permutation(len(rows))
     monkeypatch.setattr(solver, "BLOCK", 3)
@@ -202,6 +201,7 @@ def test_two_bodies_by_hand():
     impulse = m1 * 0.6 * (found.velocity - x)
     assert after["incidence"] == pytest.approx(x)
     assert after[AFTER] == pytest.approx(1.0 + impulse / ball.mass)
+    assert after["contact_velocity_after [m/s]"] == pytest.approx(0.6 * found.velocity)
     assert after["spin_after [rad/s]"] == pytest.approx(30.0 + 2.5 * impulse / ball.mass / 0.01)
     assert after["other_velocity_tangential_after [m/s]"] == pytest.approx(-impulse / 0.05)
     assert after["other_spin_after [rad/s]"] == pytest.approx(0.02 * impulse / 0.05 / 0.013**2)
@@ -291,30 +291,31 @@ def by_incidence(x, **more):
     return rows.assign(**{"velocity_tangential [m/s]": UNIT * np.asarray(x)}, **more)
 
 
-@pytest.mark.parametrize(
-    "e", [0.25, *(pytest.param(e, marks=pytest.mark.long) for e in (0.4, 0.95))]
-)
+LONG = [pytest.param(e, marks=pytest.mark.long) for e in (0.4, 0.8, 0.95)]
+
+
+@pytest.mark.parametrize("e", [0.25, *LONG])
 def test_model_form_is_the_distance_of_the_two_continua(e):
     """By the table, as in the scenes of the run, or solved, where it is within 0.01 mu v2(0)."""
     x = np.linspace(0.0, 6.0, 7) if e > 0.3 else np.array([2.5])
     velocities = [
-        continuum.rebound(x, *GROUPS, e, loss=loss, tolerance=1e-3).velocity
+        continuum.rebound(x, *GROUPS, e, loss=loss, tolerance=1e-4).velocity
         for loss in continuum.LOSSES
     ]
     wanted = np.abs(velocities[1] - velocities[0])
     assert wanted.max() > 0.02  # there is something to see
-    slack = 2 * max(spheres.ERROR_BOUND.values()) if e > 0.3 else 0.01
+    slack = 2 * (max(spheres.ERROR_BOUND.values()) + 1e-4) if e > 0.3 else 0.011
     for loss in continuum.LOSSES:
         form = scene.solve(by_incidence(x, restitution=e), 5e-3 if e > 0.3 else 1e-3, loss)[FORM]
-        assert np.abs(form - UNIT * wanted).max() <= UNIT * (slack + 3e-3)
+        assert np.abs(form - UNIT * wanted).max() <= UNIT * slack
 
 
 def test_model_form_may_be_unknown(monkeypatch):
     """Where the continuum of the other loss has no answer to its tolerance."""
     monkeypatch.setattr(model_form, "TOLERANCE", 1e-12)
     found = scene.Solver(1e-2, "viscous")
-    after = found.solve(by_incidence([2.0, 0.0, 2.0], restitution=[0.2, 0.2, 0.8]))
-    assert after[FORM].isna().tolist() == [True, False, False]
+    after = found.solve(by_incidence([2.0, 2.0], restitution=[0.2, 0.8]))
+    assert after[FORM].isna().tolist() == [True, False]
     assert after[AFTER].notna().all()
     assert found.explain().endswith("2 impacts, not known for 1")
 
