@@ -63,6 +63,7 @@ REFUSED = [
     *({"loss": 3.0} | AWAY, {"friction": -1.0} | AWAY, {"restitution": 1.1} | AWAY),
     # Too large, or too small, to compute with.
     *({"velocity": (0.1, 0.0, -2.0), "mass": mass} for mass in (5e307, 5e-324)),
+    {"velocity": (0.1, 0.0, -0.9), "mass": 1.5e308},
 ]
 FLAGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wdouble-promotion"]
 FLAGS += ["-Werror"]
