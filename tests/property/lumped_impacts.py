@@ -117,7 +117,7 @@ def thresholds(rng, count, loss):
 def equal_ratios(loss):
     """Next to zeta^2 = beta, at all distances."""
     near = 1 + np.concatenate([[0], -np.geomspace(1e-16, 1e-3, 60), np.geomspace(1e-16, 1e-3, 60)])
-    beta, near, e = np.meshgrid([1.0, 3.5], near, [0.01, np.exp(-2), 0.5, 1.0])
+    beta, near, e = np.meshgrid([1.0, 5.119047748496251], near, [0.01, np.exp(-2), 0.999, 1.0])
     least = 1e-17 if loss == "hysteretic" else 1e-3
     x = beta * near * np.reshape([least, 0.3, 1 - ULP, 1.0], (4, 1, 1, 1))
     groups = np.stack(np.broadcast_arrays(x, beta, beta * near, e)).reshape(4, -1)

@@ -22,7 +22,7 @@ from planarimpact.collision import one_impact
 from planarimpact.normal_impact import yielding
 from tests.reference_solutions import inelastic_contact
 
-COUNT = 30_000
+COUNT = 12_000
 # Rounding, as a share of the largest term of a balance.
 ROUNDING = 1e-12
 WALL = bodies.HALF_SPACE
@@ -163,26 +163,25 @@ def test_what_does_not_approach_is_left_alone(impacts):
     assert np.abs(change[~alone]).max() < 1e-10
 
 
-@pytest.mark.parametrize("frame", ["rotated", "mirrored", "moving", "other body first"])
+@pytest.mark.parametrize("frame", ["mirrored", "moving", "other body first"])
 def test_the_frame_does_not_matter(impacts, frame):
+    """A frame that is mirrored is turned as well; spins are axial vectors."""
     (pair, normal, body, velocity, spin, other, other_velocity, other_spin), after = impacts
-    turn = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
-    hand = -1 if frame == "mirrored" else 1  # spins are axial vectors
-    turn, along = turn * hand * np.sign(np.linalg.det(turn)), np.array([3.0, -1.0, 2.0])
-    if frame in ("rotated", "mirrored"):
-        spins = [hand * w @ turn.T for w in (spin, other_spin)]
-        speeds = [v @ turn.T for v in (velocity, other_velocity)]
-        given = body, speeds[0], spins[0], other, speeds[1], spins[1]
-        found = collide(pair, normal @ turn.T, *given)
-        then = [found.velocity @ turn, hand * found.spin @ turn, found.other_velocity @ turn]
+    turn, along, hand = np.eye(3), np.zeros(3), 1
+    if frame == "mirrored":
+        turn, hand = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0], -1
+        turn = -turn * np.sign(np.linalg.det(turn))
     elif frame == "moving":
-        moved = collide(
-            pair, normal, body, velocity + along, spin, other, other_velocity + along, other_spin
-        )
-        then = [moved.velocity - along, moved.spin, moved.other_velocity - along]
+        along = np.array([3.0, -1.0, 2.0])
+    one = body, velocity @ turn.T + along, hand * spin @ turn.T
+    two = other, other_velocity @ turn.T + along, hand * other_spin @ turn.T
+    if frame == "other body first":
+        found = collide(pair, -normal, *two, *one)
+        then = found.other_velocity, found.other_spin, found.velocity
     else:
-        turned = collide(pair, -normal, other, other_velocity, other_spin, body, velocity, spin)
-        then = [turned.other_velocity, turned.other_spin, turned.velocity]
+        found = collide(pair, normal @ turn.T, *one, *two)
+        then = found.velocity, found.spin, found.other_velocity
+    then = (then[0] - along) @ turn, hand * then[1] @ turn, (then[2] - along) @ turn
     met = after.regime != Regime.NO_IMPACT
     speed = np.abs(velocity).max() + np.abs(spin * body.radius[:, None]).max(axis=1)
     for new, old, unit in zip(
@@ -195,25 +194,36 @@ def test_the_frame_does_not_matter(impacts, frame):
 # One impact alone is taken by a function of its own.
 
 
-def sprayed():
-    """Pairs and incidences around every threshold of incidence, restitution and zeta^2."""
-    rng = np.random.default_rng(3)
-    near = np.array([0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-4, -1e-4])
+def sprayed(rng):
+    """Pairs and incidences around every threshold of incidence, restitution and zeta^2.
+
+    The table has the incidence where metal begins to slide with an error, the continuum without.
+    """
+    near = np.array([0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3, 2e-2, -2e-2])
     rows = []
-    for e in (*spheres.LEAST_RESTITUTION * (1 + near[:5]), 0.6, 0.7, 0.9, *(1 + near[::2])):
-        for zeta2 in (1.0, 1.2, 1.5):
+    for e in (*spheres.LEAST_RESTITUTION * (1 + near[:3]), 0.6, rng.uniform(0.3, 0.9), 1 - 1e-9, 1):
+        for zeta2 in (1.0, rng.uniform(1.0, 1.5), 1.5):
             for loss in spheres.LOSSES:
-                limit = continuum.slip_throughout_limit(3.5, zeta2, max(e, 0.3), loss=loss)
-                for x in (zeta2, 3.5, float(limit), rng.uniform(0, 9)):
-                    rows.append((zeta2, e, loss, x * (1 + rng.choice(near))))
+                least = max(e, 0.3)
+                limit = float(continuum.slip_throughout_limit(3.5, zeta2, least, loss=loss))
+                table = spheres.table.shipped()
+                _, tabled, _ = spheres.table.of_one(table, 0.0, 3.5 / zeta2, least, True)
+                at = zeta2, 3.5, limit, tabled * zeta2, (limit + tabled * zeta2) / 2
+                rows += [(zeta2, e, loss, x) for x in (*at, rng.uniform(0, 9))]
     zeta2, e, loss, x = map(np.array, zip(*rows, strict=True))
-    return Pair(friction=0.3, stiffness_ratio=zeta2, restitution=e, loss=loss), x
+    pairs = Pair(friction=0.3, stiffness_ratio=zeta2, restitution=e, loss=loss)
+    distance = rng.choice(near, x.size)
+    return pairs, x * (1 + distance), distance
 
 
-def test_one_impact_is_that_of_many():
+LONG_SEEDS = (pytest.param(seed, marks=pytest.mark.long) for seed in range(30))
+
+
+@pytest.mark.parametrize("seed", [100, *LONG_SEEDS])
+def test_one_impact_is_that_of_many(seed):
     """Both have the same answer, to rounding, and the single one is taken by its own function."""
     up, still, ball = np.array([0.0, 0.0, 1.0]), np.zeros(3), bodies.solid_sphere(0.01, 2500.0)
-    pairs, x = sprayed()
+    pairs, x, distance = sprayed(np.random.default_rng(seed))
     velocity = x[:, None] * [0.3, 0, 0] - up
     many, plain = collide(pairs, up, ball, velocity, still), 0
     for i, row in enumerate(velocity):
@@ -224,37 +234,17 @@ def test_one_impact_is_that_of_many():
         # A float64 beside a threshold one may take the formula, and the other one the table.
         error = max(one.error_bound, many.error_bound[i])
         same_rung = one.error_bound == many.error_bound[i]
+        assert same_rung or abs(distance[i]) < 1e-14
         np.testing.assert_allclose(
             one.velocity, many.velocity[i], rtol=1e-12, atol=1e-12 if same_rung else error
         )
         assert one.regime == many.regime[i] or not same_rung
         assert one.incidence == pytest.approx(many.incidence[i], rel=1e-14)
         assert one.restitution == many.restitution[i] and one.loss == many.loss[i]
-    assert plain > 0.7 * x.size
+    assert plain > 0.6 * x.size
 
 
-@pytest.mark.parametrize("count", [10, pytest.param(2000, marks=pytest.mark.long)])
-def test_one_impact_is_that_of_many_where_metal_begins_to_slide(count):
-    """The table has this incidence with an error, the continuum without one."""
-    rng = np.random.default_rng(9)
-    for _ in range(count):
-        b, zeta2, e = rng.uniform(1.5625, 3.5), rng.uniform(1.0, 1.6), rng.uniform(0.3, 0.7)
-        groups = b * zeta2, zeta2, e
-        pair = Pair(stiffness_ratio=zeta2, friction=1.0, restitution=e, loss="plastic")
-        body = bodies.Body(1.0, 1 / np.sqrt(b * zeta2 - 1), 1.0)
-        exact = float(continuum.slip_throughout_limit(*groups, loss="plastic"))
-        _, slides_from, _ = spheres.table.of_one(spheres.table.shipped(), 0.0, b, e, True)
-        tabled = slides_from * zeta2
-        beside = np.array([1 - 2e-2, 1 - 1e-3, 1 - 1e-6, 1 + 1e-6, 1 + 1e-3, 1 + 2e-2])
-        for x in [*exact * beside, *tabled * beside, (exact + tabled) / 2]:
-            velocity = np.array([x, 0, -1.0])
-            one = collide(pair, [0, 0, 1], body, velocity, [0, 0, 0])
-            many = collide(pair, [[0, 0, 1]], body, [velocity], [0, 0, 0])
-            assert (one.regime, one.error_bound) == (many.regime[0], many.error_bound[0])
-            np.testing.assert_allclose(one.velocity, many.velocity[0], rtol=1e-12, atol=1e-12)
-
-
-@pytest.mark.parametrize("count", [80, pytest.param(10_000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [40, pytest.param(10_000, marks=pytest.mark.long)])
 def test_one_path_for_numbers_of_every_size(count):
     """One impact alone and in an array: the same answer, or the same refusal, never NaN or inf.
 
@@ -357,8 +347,6 @@ def answers_of_all_paths(pair, normal, velocity):
     ("loss", "zeta2", "e"),
     [
         ("viscous", 1.5, 0.35),
-        ("plastic", 1.5, 0.35),
-        ("viscous", 2.2, 0.6),
         ("plastic", 1.0, 0.2),
         ("viscous", 1.2, 1),
     ],
@@ -469,19 +457,15 @@ def test_model_form_is_not_known_where_the_other_loss_has_no_answer():
 
 
 def test_a_table_of_pairs_is_indexed_by_kinds():
-    materials = bodies.Material(np.array([207e9, 70e9]), np.array([0.3, 0.22]))
-    rows = bodies.Material(materials.young_modulus[:, None], materials.poisson_ratio[:, None])
-    table = Pair(
-        rows, materials, friction=0.2, restitution=[[0.8, 0.9], [0.9, 1.0]], loss="plastic"
-    )
-    one = Pair(STEEL, bodies.Material(70e9, 0.22), friction=0.2, restitution=0.9, loss="plastic")
-    kinds = np.array([0, 1, 0]), np.array([1, 1, 0])
-    assert table.shape == (2, 2) and table[kinds].restitution.tolist() == [0.9, 1.0, 0.8]
+    """Also what is made of materials is that of the two kinds."""
+    moduli, ratios = np.array([207e9, 70e9]), np.array([0.3, 0.22])
+    materials = bodies.Material(moduli[:, None], ratios[:, None]), bodies.Material(moduli, ratios)
+    table = Pair(*materials, friction=0.2, restitution=[[0.8, 0.9], [0.7, 1.0]], loss="plastic")
+    glass = bodies.Material(70e9, 0.22)
+    one = Pair(STEEL, glass, friction=0.2, restitution=0.9, loss="plastic")
+    kinds = np.array([0, 1, 1]), np.array([1, 1, 0])
+    assert table.shape == (2, 2) and table[kinds].restitution.tolist() == [0.9, 1.0, 0.7]
     assert table[0, 1].stiffness_ratio == one.stiffness_ratio
-    velocity = np.array([1.0, 0.0, -1.0])
-    many = collide(table[kinds], [0, 0, 1], BALL, velocity, np.zeros(3))
-    one = collide(one, [0, 0, 1], BALL, velocity, np.zeros(3))
-    np.testing.assert_allclose(many.velocity[0], one.velocity, rtol=1e-13)
 
 
 def test_nobody_changes_a_pair():

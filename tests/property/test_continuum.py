@@ -195,54 +195,6 @@ def test_the_regimes_of_maw_and_others_begin_where_they_say():
     assert (continuum.rebound([3.5, 4.5, 5.5], tolerance=1e-4).peak_friction == 1).all()
 
 
-def no_slip_ratio(beta, zeta2, motion):
-    """w(tf)/x where friction never limits: every spring follows the body from its first touch.
-
-    The displacement at first touch, integrated over the radius, replaces the springs. While metal
-    yields every deflection decays alike: without the factor by which it does, less, it does not.
-    """
-    tau = float(motion.tau[0]) if motion.dashpots else 0.0
-    time, radius = motion.time[:, 0], np.concatenate([motion.radius, motion.radius[-2::-1]])[:, 0]
-    middle = len(motion.radius) - 1
-    less = np.ones(len(time))
-    if not motion.dashpots:
-        flowed = motion.flowed(motion.approach)[: middle + 1, 0]
-        less[: middle + 1] = np.exp(flowed - flowed[-1])
-
-    def slopes(t, y, memory):
-        w, u, kept = y
-        a = np.interp(t, time, radius)
-        if memory is not None:
-            kept = np.interp(a, *memory)
-        factor = np.interp(t, time, less)
-        force = 2 * (a * (u + tau * w / zeta2) - kept) / zeta2 / factor
-        grows = np.interp(t, time[: middle + 1], rate)
-        return [-beta * zeta2 * force, w / zeta2 * factor, u * grows]
-
-    rate = np.gradient(radius[: middle + 1], time[: middle + 1])
-    loading = solve_ivp(
-        slopes,
-        (0, time[middle]),
-        [1.0, 0.0, 0.0],
-        args=(None,),
-        t_eval=time[: middle + 1],
-        rtol=1e-8,
-    )
-    memory = radius[: middle + 1], loading.y[2]
-    start = [*loading.y[:2, -1], 0.0]
-    return solve_ivp(slopes, (time[middle], time[-1]), start, args=(memory,), rtol=1e-8).y[0, -1]
-
-
-@pytest.mark.parametrize("loss", LOSSES)
-@pytest.mark.parametrize(("beta", "zeta2", "e"), [(3.5, 1.21, 0.7), (6.0, 0.9, 0.4)])
-def test_with_endless_friction_the_response_is_linear(loss, beta, zeta2, e):
-    motion = inelastic.MOTIONS[loss](np.array([e]))
-    motion.put_springs(np.linspace(0, 1, 4001)[:, None])
-    x = 1e-5
-    found = solved(x, beta, zeta2, e, loss, 1e-8 * 100).velocity / x
-    assert found == pytest.approx(no_slip_ratio(beta, zeta2, motion), abs=3e-3)
-
-
 def elastic_no_slip(ratio):
     """The same of elastic spheres (Lyashenko & Popov 2015), spring by spring.
 

@@ -127,8 +127,8 @@ def assert_met(groups, tolerances):
 
 
 def test_the_tolerance_is_met_by_elastic_spheres():
-    samples = np.array(FOUND).T, corner(30), around_onsets(5), all_over(24)
-    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: None, 1e-5: 20})
+    samples = np.array(FOUND).T, corner(20), around_onsets(3), all_over(12)
+    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: 49, 1e-5: 12})
 
 
 @pytest.mark.slow
@@ -141,7 +141,7 @@ def test_the_tolerance_is_met_by_many_elastic_spheres(sample):
 def test_the_estimate_survives_a_change_that_vanishes_by_chance():
     """From 256 to 512 steps the extrapolated answer moves by 1e-6, and is wrong by 3.4e-4."""
     groups = 8.823256960990886, 18.56038953662075, 0.3168530116148592
-    exact = continuum.fixed_steps(*groups, 4096, True)  # 8192 steps change it by 3e-8
+    exact = -0.55347522  # extrapolated from 4096 steps; 8192 change it by 3e-8
     for tolerance in (5e-4, 3e-4):
         assert abs(continuum.rebound(*groups, tolerance=tolerance).velocity - exact) <= tolerance
 
@@ -149,14 +149,14 @@ def test_the_estimate_survives_a_change_that_vanishes_by_chance():
 def test_the_end_of_slip_within_a_step_is_not_missed():
     """Repeated stick and slip, where a missed turning point would cost 1e-4 by chance."""
     groups = 3.0721553278340115, 2.916339839549625, 0.19124359805672045
-    exact = continuum.fixed_steps(*groups, 2048, True)
+    exact = 0.35764792  # extrapolated from 2048 steps
     assert continuum.rebound(*groups, tolerance=1e-4).regime == Regime.MULTIPLE
     for steps in (128, 256, 512):
         assert abs(continuum.fixed_steps(*groups, steps, True) - exact) < 1e-5
 
 
 def test_error_falls_with_the_square_of_the_steps_and_better_extrapolated():
-    x = np.linspace(0.1, 5.7, 60)
+    x = np.linspace(0.1, 5.7, 30)
     exact = continuum.fixed_steps(x, 3.5, 17 / 14, 2048, True)
     errors = []
     for steps in (64, 128, 256, 512):
@@ -290,7 +290,7 @@ def test_the_error_falls_smoothly_with_the_square_of_the_steps(loss):
 @pytest.mark.parametrize("loss", [None, *continuum.LOSSES])
 def test_a_tolerance_may_be_a_share_of_any_incidence(loss):
     """As friction becomes large, x vanishes, and the velocity vanishes in proportion to it."""
-    rng, n, tolerance = np.random.default_rng(50), 7, 5e-3
+    rng, n, tolerance = np.random.default_rng(50), 5, 5e-3
     x = 10.0 ** np.concatenate([[-300.0, -100.0, -12.0], rng.uniform(-9, 0, n - 3)])
     beta, zeta2 = 10 ** rng.uniform(0, 1.6, n), 10 ** rng.uniform(-0.5, 0.6, n)
     e = rng.uniform(0.1, 0.97, n) if loss else np.ones(n)

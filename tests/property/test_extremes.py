@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact import ConvergenceError, InputError, bodies, continuum, lumped, models, scene
+from planarimpact import ConvergenceError, InputError, continuum, lumped, models, scene
 from planarimpact.continuum import annuli
 from planarimpact.models import laws
 
@@ -67,16 +67,22 @@ def test_laws_of_impulses(law):
         assert_possible(law(x, *groups), x)
 
 
-@pytest.mark.parametrize("law", STEPPED, ids=NAMES)
-def test_laws_in_steps(law):
-    gain = {MINDLIN: 0.06, LINEAR: 0.03, RESCALED: 0.0}[law]
+def elastic_annuli(*groups, steps):
+    return annuli.rebound(*groups, circles=4, steps=steps)
+
+
+@pytest.mark.parametrize(
+    ("law", "gain", "least"),
+    [(LINEAR, 0.03, 60), (MINDLIN, 0.06, 60), (RESCALED, 0.0, 60), (elastic_annuli, 0.02, 10)],
+)
+def test_laws_in_steps(law, gain, least):
     solved = 0
-    for x, *groups in box(RESTITUTIONS[::2]):
+    for x, *groups in box([1.0] if law is elastic_annuli else RESTITUTIONS[::2]):
         result = answered(lambda x=x, groups=groups: law(x, *groups, steps=64))
         if result is not None:
             solved += 1
             assert_possible(result, x, gain)
-    assert solved > 60
+    assert solved > least
 
 
 @pytest.mark.parametrize("law", STEPPED, ids=NAMES)
@@ -89,16 +95,6 @@ def test_a_tiny_impact_scales_a_small_one(law):
             share = x / (zeta2 * 1e-90)
             for found, wanted in zip(tiny[:2], small[:2], strict=False):
                 assert found == pytest.approx(wanted * share, rel=1e-12, abs=1e-322)
-
-
-def test_annuli():
-    solved = 0
-    for x, *groups in box([1.0]):
-        result = answered(lambda x=x, g=groups: annuli.rebound(x, *g, circles=4, steps=64))
-        if result is not None:
-            solved += 1
-            assert_possible(result, x, 0.02)
-    assert solved > 10
 
 
 @pytest.mark.parametrize("beta", [1.0, 8e307])
@@ -115,57 +111,19 @@ def test_the_continuum(beta, zeta2):
                 assert result.velocity[0] == x - 2 * beta
 
 
-REFUSED = [
-    ("circles = 1000000000", lambda: annuli.rebound(2.0, circles=10**9)),
-    ("steps = 1000000000", lambda: annuli.rebound(2.0, steps=10**9)),
-    ("steps = 2", lambda: MINDLIN(2.0, steps=2)),
-    ("steps = 100000000", lambda: LINEAR(2.0, steps=10**8)),
-    ("unstable", lambda: LINEAR(1.0, 3.5, 1e-3, steps=64)),
-    ("integers from 3142", lambda: continuum.fixed_steps(1, 1e6, 1, steps=16)),
-    ("steps = 1000000000:", lambda: continuum.fixed_steps(1.0, steps=10**9)),
-    ("to 32768", lambda: continuum.fixed_steps(1e-9, 1.0, 1e-300)),
-    ("rounding alone", lambda: continuum.rebound(2.0, tolerance=1e-16)),
-    ("out of reach of 32768", lambda: continuum.rebound(2.0, tolerance=1e-13)),
-]
-
-
-@pytest.mark.parametrize(("words", "call"), REFUSED, ids=[words for words, _ in REFUSED])
-def test_what_cannot_be_done_is_refused_at_once(words, call):
-    start = time.process_time()
-    with pytest.raises((InputError, ConvergenceError), match=words):
-        call()
-    assert time.process_time() - start < 3
-
-
 # Physical scales. A unit that is a power of two changes exponents only, if nothing leaves the
 # range of numbers on the way. Powers of m, kg and s are the columns.
 
 EXPONENTS = [(160, 0, 0), (0, 160, 0), (0, 0, 160), (-160, 160, -160), (160, -160, -160)]
 EXPONENTS += [(-7, 3, 11)]
 UNITS = {
-    "radius [m]": (1, 0, 0),
-    "other_radius [m]": (1, 0, 0),
-    "mass [kg]": (0, 1, 0),
-    "other_mass [kg]": (0, 1, 0),
-    "gyration [m]": (1, 0, 0),
-    "other_gyration [m]": (1, 0, 0),
-    "young_modulus [Pa]": (-1, 1, -2),
-    "velocity_tangential [m/s]": (1, 0, -1),
-    "velocity_normal [m/s]": (1, 0, -1),
-    "spin [rad/s]": (0, 0, -1),
-    "velocity_tangential_after [m/s]": (1, 0, -1),
-    "velocity_normal_after [m/s]": (1, 0, -1),
-    "spin_after [rad/s]": (0, 0, -1),
-    "other_velocity_tangential_after [m/s]": (1, 0, -1),
-    "other_velocity_normal_after [m/s]": (1, 0, -1),
-    "other_spin_after [rad/s]": (0, 0, -1),
-    "contact_velocity_after [m/s]": (1, 0, -1),
-    "error_bound [m/s]": (1, 0, -1),
-    "model_form [m/s]": (1, 0, -1),
-    "incidence": (0, 0, 0),
-    "energy_lost [J]": (2, 1, -2),
-    "peak_normal_force [N]": (1, 1, -2),
-    "peak_friction_force [N]": (1, 1, -2),
+    "[m]": (1, 0, 0),
+    "[kg]": (0, 1, 0),
+    "[Pa]": (-1, 1, -2),
+    "[m/s]": (1, 0, -1),
+    "[rad/s]": (0, 0, -1),
+    "[J]": (2, 1, -2),
+    "[N]": (1, 1, -2),
 }
 ROWS = pd.DataFrame(
     {
@@ -188,8 +146,9 @@ ROWS = pd.DataFrame(
 
 
 def in_units(table, *exponents):
-    factor = {name: 2.0 ** float(np.dot(UNITS.get(name, (0, 0, 0)), exponents)) for name in table}
-    return table.assign(**{name: table[name] * factor[name] for name in table if name in UNITS})
+    factors = {unit: 2.0 ** float(np.dot(powers, exponents)) for unit, powers in UNITS.items()}
+    units = {name: name.partition(" ")[2] for name in table}
+    return table.assign(**{n: table[n] * factors[unit] for n, unit in units.items() if unit})
 
 
 @pytest.fixture(scope="module")
@@ -205,33 +164,3 @@ def test_a_scene_has_no_scale(exponents, solved):
             np.testing.assert_allclose(found[name], wanted[name], rtol=1e-13)
         else:
             assert found[name].tolist() == wanted[name].tolist(), name
-
-
-@pytest.mark.parametrize("exponents", EXPONENTS)
-def test_bodies_have_no_scale(exponents):
-    m, kg, s = (2.0**exponent for exponent in exponents)
-    speed, modulus = m / s, kg / m / s / s
-
-    def physics(m, kg, s, speed, modulus):
-        body = bodies.Body(0.3 * kg, 0.006 * m, 0.01 * m)
-        other = bodies.Body(0.7 * kg, 0.03 * m, 0.02 * m)
-        motion = bodies.Motion(1.3 * speed, 2.1 * speed, 30 / s)
-        steel, glass = bodies.Material(2e11 * modulus, 0.3), bodies.Material(7e10 * modulus, 0.2)
-        m1, m2 = bodies.effective_masses(body, other)
-        ratio, zeta2 = bodies.mass_ratio(body, other), bodies.stiffness_ratio(steel, glass)
-        radius = bodies.effective_radius(0.01 * m, 0.02 * m)
-        after = bodies.rebound_motion(body, motion, 0.3, -0.4, 0.5)
-        x = bodies.incidence(*motion[:2], 0.3)
-        scaled = after.tangential / speed, after.normal / speed, after.spin * s
-        return m1 / kg, m2 / kg, ratio, zeta2, radius / m, x, *scaled
-
-    assert physics(m, kg, s, speed, modulus) == physics(1.0, 1.0, 1.0, 1.0, 1.0)
-
-
-def test_a_scene_refuses_such_rows_by_number():
-    table = ROWS.assign(**{"gyration [m]": [0.006, 1e-9, 1e-200]})
-    with pytest.raises(InputError, match="row 2: mass ratio m2/m1 = .*up to 1e.12; 1 more row"):
-        scene.solve(table)
-    solver = scene.Solver()
-    assert len(solver.solve(table, skip_bad=True)) == 1
-    assert [row for row, _ in solver.bad] == [2, 3]

@@ -133,6 +133,13 @@ def test_only_ratios_of_the_groups_matter(impacts, loss):
     np.testing.assert_array_equal(other.dissipation, 4 * one.dissipation)
 
 
+def test_equal_ratios_start_no_slip_by_rounding():
+    """There T and N are in proportion, all along: the limit is -e x."""
+    x, beta, zeta2, e = groups = lumped_impacts.equal_ratios("viscous")
+    velocity, away = lumped.rebound(*groups, loss="viscous").velocity, np.abs(zeta2 / beta - 1)
+    assert (np.abs(velocity + e * x) <= 20 * (away + 1e-15) * beta).all()
+
+
 def test_no_answer_differs_from_its_neighbours(jumps, loss):
     """A lost or invented phase does not strike two neighbours alike."""
     slack = STEP if loss == "hysteretic" else 30 * STEP

@@ -5,8 +5,8 @@ and at random places. From the worst of them it climbs: it tries places around t
 nearer. Errors of velocity and work are in proportion to zeta^2: the largest one is tried. Those of
 plastic dissipation grow with the incidence, so the climb of that one leads to large incidences.
 Below x = 1 errors are in proportion to x: there a search of its own asks the second code, as the
-continuum would take very many steps. The suite tries what searches found, the impacts around it and
-a few more; the profile `long` climbs, from other seeds.
+continuum would take very many steps. The suite tries what searches found and the impacts around
+it; the profile `long` climbs.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ from tests.reference_solutions import inelastic_contact
 TOLERANCE = {"viscous": 4e-5, "plastic": 2e-4}
 FIELDS = "velocity", "peak_friction", "dissipation"
 # Impacts at the beginning; places that are climbed from, places tried around each, and rounds.
-SHORT, LONG, MANY = (8, 1, 2, 1), (6000, 60, 12, 12), (8000, 100, 12, 6)
+LONG, MANY = (6000, 60, 12, 12), (8000, 100, 12, 6)
 STEP, NEARER = 0.5, 0.6  # intervals of the splines
 # Wrong with a table of a polynomial in each cell: x, m2/m1, zeta^2, e.
 FOUND = {
@@ -42,6 +42,9 @@ FOUND = {
         # Dissipation of impacts that leave fast:
         (17.291610535986045, 2.500181166546506, 1.6, 0.3058904527389336),
         (17.6377, 2.50157, 1.6, 0.303126),
+        # Of the upper panel, which was not wrong:
+        (1.2, 3.5, 1.2, 0.88),
+        (4.0, 5.2, 1.5, 0.95),
     ],
 }
 
@@ -124,13 +127,11 @@ def climbed(random, name, budget, errors=errors):
     return share[field, worst], FIELDS[field], impact
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", table.ROOTS)
-@pytest.mark.parametrize(
-    ("seed", "budget"),
-    [(0, SHORT), *(pytest.param(seed, LONG, marks=pytest.mark.long) for seed in (1, 2, 3))],
-)
-def test_no_search_finds_an_error_beyond_the_bound(name, seed, budget):
-    share, *words = climbed(np.random.default_rng([20, seed]), name, budget)
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_no_search_finds_an_error_beyond_the_bound(name, seed):
+    share, *words = climbed(np.random.default_rng([20, seed]), name, LONG)
     assert share <= 1, (share, *words)
 
 

@@ -111,21 +111,10 @@ def _instant(curve, x, e, time):
     return [curve, time, *_numbers(state_at(solve(x, BETA, ZETA2, e), e, time))[1:]]
 
 
-def state_at(answer, e, time, beta=BETA, zeta2=ZETA2):
-    """State of a contact at an instant inside one of its phases, from the event that begins it.
+def state_at(answer, e, time):
+    """State of a contact inside one of its phases, from the event that begins it.
 
-    Parameters
-    ----------
-    answer : high_precision.Answer
-    e : float
-    time : float or mpf
-        In units of the time to greatest compression.
-    beta, zeta2 : float
-
-    Returns
-    -------
-    high_precision.Event
-        Without a kind.
+    Time is in units of that to greatest compression.
     """
     time = mp.mpf(time)
     started = [event for event in answer.events if event.time <= time]
@@ -133,17 +122,17 @@ def state_at(answer, e, time, beta=BETA, zeta2=ZETA2):
     last = started[-1]
     first, normal = (_normal_motion(instant, e) for instant in (last.time, time))
     if sticks:
-        omega = mp.sqrt(mp.mpf(beta) / mp.mpf(zeta2))
+        omega = mp.sqrt(mp.mpf(BETA) / mp.mpf(ZETA2))
         turned = omega * mp.pi / 2 * (time - last.time)
         cosine, sine = mp.cos(turned), mp.sin(turned)
-        impedance = omega * mp.mpf(zeta2)
+        impedance = omega * mp.mpf(ZETA2)
         friction = last.friction * cosine + last.velocity / impedance * sine
         velocity = last.velocity * cosine - impedance * last.friction * sine
     else:
         # Slip began where |T| = N; at first contact both are zero and it goes forward.
         forward = -1 if last.friction < 0 else 1
         friction = forward * normal[0]
-        velocity = last.velocity - forward * beta * (normal[1] - first[1])
+        velocity = last.velocity - forward * BETA * (normal[1] - first[1])
     return high_precision.Event("", time, normal[0], friction, velocity)
 
 
@@ -325,7 +314,7 @@ def _friction_newtons(angle):
     return ["friction", angle, force * peak, peak, force * lowest_friction(answer)]
 
 
-def lowest_friction(answer, beta=BETA, zeta2=ZETA2):
+def lowest_friction(answer):
     """Least friction over a contact, from its events, e = 1.
 
     In slip friction is plus or minus the normal force, which is monotone in each half of the
@@ -333,8 +322,8 @@ def lowest_friction(answer, beta=BETA, zeta2=ZETA2):
     velocity turns round from negative to positive: friction grows with the velocity.
     """
     found = min(event.friction for event in answer.events)
-    omega = mp.sqrt(mp.mpf(beta) / mp.mpf(zeta2))
-    impedance = omega * mp.mpf(zeta2)
+    omega = mp.sqrt(mp.mpf(BETA) / mp.mpf(ZETA2))
+    impedance = omega * mp.mpf(ZETA2)
     sticks = False
     for event, after in zip(answer.events, answer.events[1:], strict=False):
         if event.kind in ("stick", "slip"):

@@ -39,18 +39,14 @@ class Event(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """Outcome of one impact; tangential energies in mu^2 m2 v2(0)^2, normal ones in m2 v2(0)^2."""
+    """Outcome of one impact; energies in mu^2 m2 v2(0)^2."""
 
     velocity: mp.mpf
-    peak_friction: mp.mpf  # in mu times `peak_normal`
+    peak_friction: mp.mpf  # in mu times the largest normal force
     dissipation: mp.mpf  # the work of friction
     tangential_viscous: mp.mpf
     tangential_strain: mp.mpf  # left at separation
-    normal_viscous: mp.mpf
-    normal_strain: mp.mpf
-    peak_normal: mp.mpf
     duration: mp.mpf
-    xi: mp.mpf
     events: tuple
 
 
@@ -190,8 +186,7 @@ def rebound(incidence, mass_ratio, stiffness_ratio, restitution, digits=40):
 class _Impact:
     def __init__(self, x, beta, zeta2, e):
         self.x, self.beta, self.zeta2, self.e = x, beta, zeta2, e
-        self.xi = damping_ratio(e)
-        self.tau = 2 * self.xi
+        self.tau = 2 * damping_ratio(e)
         self.tiny = mp.mpf(10) ** (GUARD_DIGITS // 2 - mp.dps)
         force = self._normal(mp.zero, mp.one)[0]
         self.duration = self._far(force, mp.mpf(10))
@@ -214,7 +209,6 @@ class _Impact:
         time, u, v, s, w = mp.zero, mp.zero, mp.one, mp.zero, self.x
         sticks = w < self.zeta2 or (w == self.zeta2 and self.beta > self.zeta2)
         side, events = 1, []
-        normal_viscous = mp.zero
         first = True
         while True:
             left = self.duration - time
@@ -263,7 +257,6 @@ class _Impact:
                 self.work += force.integral(gap, until)
             slope = spring.rate()
             self.viscous += self.tau / self.zeta2 * slope.integral(slope, until)
-            normal_viscous += self.tau * velocity.integral(velocity, until)
             time += until
             w, s, v = body(until), spring(until), velocity(until)
             u = force(until) - self.tau * v
@@ -278,11 +271,7 @@ class _Impact:
             self.work,
             self.viscous,
             s**2 / (2 * self.zeta2),
-            normal_viscous,
-            u**2 / 2,
-            self.peak_normal,
             self.duration,
-            self.xi,
             tuple(events),
         )
 

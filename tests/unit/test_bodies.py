@@ -4,7 +4,6 @@ import pickle
 
 import numpy as np
 import pytest
-from scipy.special import beta
 
 from planarimpact import bodies, lumped
 from planarimpact.bodies import HALF_SPACE, Body, Material, Motion
@@ -14,21 +13,15 @@ CERAMIC, GLASS = Material(380e9, 0.23), Material(70e9, 0.25)
 STEEL_BALL = bodies.solid_sphere(0.0127, 7800.0)
 
 
-@pytest.mark.parametrize(
-    "body, expected",
-    [
-        (STEEL_BALL, 3.5),
-        (bodies.thin_shell(0.02, 0.0027), 2.5),
-        (bodies.disc(0.05, 0.1), 3.0),
-        (Body(1.0, np.inf, 0.3), 1.0),
-        (Body(1.0, 0.3, 0.0), 1.0),
-    ],
-)
 @pytest.mark.parametrize("scale", [None, 1.0, 7.0])
-def test_mass_ratio_is_that_of_the_shape(body, expected, scale):
-    other = HALF_SPACE if scale is None else Body(scale * body.mass, *body[1:])
-    assert bodies.mass_ratio(body, other) == pytest.approx(expected, rel=1e-14)
-    assert bodies.mass_ratio(other, body) == pytest.approx(expected, rel=1e-14)
+def test_mass_ratio_is_that_of_the_shape(scale):
+    """Of two bodies of one shape; 1 without an arm or a rotation."""
+    shell = bodies.thin_shell(0.02, 0.0027)
+    shapes = {STEEL_BALL: 3.5, shell: 2.5, Body(1.0, np.inf, 0.3): 1.0, Body(1.0, 0.3, 0.0): 1.0}
+    for body, expected in shapes.items():
+        other = HALF_SPACE if scale is None else Body(scale * body.mass, *body[1:])
+        assert bodies.mass_ratio(body, other) == pytest.approx(expected, rel=1e-14)
+        assert bodies.mass_ratio(other, body) == pytest.approx(expected, rel=1e-14)
 
 
 def test_effective_masses_of_unlike_bodies():
@@ -51,14 +44,15 @@ def test_stiffness_ratio_of_one_material(nu):
     assert bodies.stiffness_ratio(material, material) == expected
 
 
-def test_dissimilar_materials():
-    assert bodies.effective_modulus(CERAMIC, GLASS) == pytest.approx(63e9, rel=2e-3)
-    assert bodies.stiffness_ratio(CERAMIC, GLASS) == pytest.approx(1.164, abs=5e-4)
+def test_neither_material_is_the_first_and_a_rigid_one_leaves_the_other():
     assert bodies.stiffness_ratio(GLASS, CERAMIC) == bodies.stiffness_ratio(CERAMIC, GLASS)
-    nearly_rigid = Material(1e30, 0.3)
-    assert bodies.stiffness_ratio(GLASS, nearly_rigid) == pytest.approx(
-        bodies.stiffness_ratio(GLASS), rel=1e-12
-    )
+    rigid = Material(1e30, 0.3)
+    alone = {bodies.stiffness_ratio: 7 / 6, bodies.effective_modulus: 70e9 * 16 / 15}
+    for group, of_glass in alone.items():
+        assert group(GLASS, rigid) == pytest.approx(of_glass, rel=1e-12)
+        assert group(rigid, GLASS) == pytest.approx(of_glass, rel=1e-12)
+    halves = bodies.effective_modulus(GLASS, GLASS), bodies.effective_modulus(GLASS) / 2
+    assert halves[0] == pytest.approx(halves[1], rel=1e-14)
 
 
 @pytest.mark.parametrize("speed", [1e-200, 1e-3, 1.0, 1e200])
@@ -136,21 +130,6 @@ LAWS = {
 }
 
 
-def test_a_little_damping_takes_what_hertz_motion_would_lose():
-    """1 - e is the loss over twice the energy of impact, and the force 2 tau d^(1/2) d' takes it.
-
-    Along Hertz's motion, v^2 = 1 - (16/15) d^(5/2), in compression and in restitution.
-    """
-    slope = 4 * 0.4 * beta(0.6, 1.5) * (15 / 16) ** 0.6
-    unit = (0.0327 / (115e9 * np.sqrt(0.01))) ** 0.4  # L/v2 at 1 m/s
-    shares = np.array([1e-4, 1e-6])
-    lost = 1 - bodies.viscous_restitution(1.0, shares * unit, **STEEL)
-    # The next term of the series has the power 3/2.
-    assert np.all(np.abs(lost / (slope * shares) - 1) < 2 * np.sqrt(shares))
-    faster = 1 - bodies.viscous_restitution(32.0, 1e-6 * unit, **STEEL)
-    assert faster / lost[1] == pytest.approx(2.0, rel=2e-3)
-
-
 def test_yield_begins_at_the_yield_speed():
     """There the largest pressure of Hertz, 3 F/(2 pi a^2), is the yield pressure."""
     pressure = np.array([1e8, 2e9, 1e10])
@@ -164,8 +143,10 @@ def test_yield_begins_at_the_yield_speed():
     assert bodies.yield_pressure(1.0, speed, **STEEL) == pytest.approx(pressure, rel=1e-13)
 
 
-@pytest.mark.parametrize("ball", [STEEL, RUBBER], ids=["steel", "rubber"])
-@pytest.mark.parametrize(("speed", "e"), [(1e-3, 0.99), (30.0, 0.8), (0.7, 0.3), (1e-3, 0.05)])
+@pytest.mark.parametrize(
+    ("ball", "speed", "e"),
+    [(STEEL, 1e-3, 0.99), (RUBBER, 30.0, 0.8), (STEEL, 0.7, 0.3), (RUBBER, 1e-3, 0.05)],
+)
 def test_restitution_and_force_are_those_of_the_motion(ball, speed, e):
     """The motions by SciPy, in units of effective mass, modulus, radius and speed."""
     mass, modulus, radius = ball.values()
@@ -195,24 +176,11 @@ def test_restitution_at_one_speed_gives_the_material_and_back(loss):
     found = law(speed, inverse(e, speed, **STEEL), **STEEL)
     np.testing.assert_allclose(found, np.broadcast_to(e, (5, 3)), rtol=0, atol=1e-10)
     assert (np.diff(law(speed, inverse(0.7, 1.0, **STEEL), **STEEL)) < 0).all()
+    hertz = bodies.hertz_peak_force(speed=2.0, **STEEL)
+    force = bodies.peak_force(speed=2.0, restitution=[1.0, 1 - 1e-12], loss=loss, **STEEL)
+    assert force[0] == hertz and force[1] == pytest.approx(hertz, rel=1e-6)
     assert bodies.relaxation_time(1.0, 2.0, **STEEL) == 0
     assert bodies.plastic_restitution(1, 1e300, **STEEL) == 1
-
-
-@pytest.mark.parametrize("loss", LAWS)
-def test_peak_force_of_a_loss_begins_with_that_of_hertz(loss):
-    hertz = bodies.hertz_peak_force(speed=2.0, **STEEL)
-    e = np.array([1.0, 1 - 1e-12, 0.999])
-    force = bodies.peak_force(speed=2.0, restitution=e, loss=loss, **STEEL)
-    assert force[0] == hertz and force[1] == pytest.approx(hertz, rel=1e-6)
-    assert 0.998 * hertz < force[2] < hertz
-
-
-def test_a_relaxation_time_beyond_the_law_is_named_with_its_place():
-    with pytest.raises(bodies.OutOfRange) as refusal:
-        bodies.viscous_restitution(1.0, [[1e-7, 0.1], [0.2, 1e-7]], **STEEL)
-    words = {i: message.partition(":")[0] for i, message in refusal.value.messages.items()}
-    assert words == {1: "relaxation_time = 0.1", 2: "relaxation_time = 0.2"}
 
 
 def test_what_is_made_keeps_its_fields_as_given():
@@ -231,12 +199,13 @@ def test_whole_numbers_are_numbers_if_a_float_can_hold_them(value):
     np.testing.assert_array_equal(lumped.rebound(value).velocity, lumped.rebound(numbers).velocity)
 
 
-def test_a_result_out_of_range_is_pickled_with_its_place():
-    with pytest.raises(bodies.OutOfRange, match="= inf: it is beyond") as refusal:
-        bodies.normal_frequency([1e-9, 1e300], 1e-200, 1.0)
+def test_what_is_out_of_range_is_named_with_its_place_and_pickled():
+    with pytest.raises(bodies.OutOfRange) as refusal:
+        bodies.viscous_restitution(1.0, [[1e-7, 0.1], [0.2, 1e-7]], **STEEL)
     again = pickle.loads(pickle.dumps(refusal.value))
     assert type(again) is bodies.OutOfRange and str(again) == str(refusal.value)
-    assert again.messages == refusal.value.messages and list(again.messages) == [1]
+    words = {i: message.partition(":")[0] for i, message in again.messages.items()}
+    assert words == {1: "relaxation_time = 0.1", 2: "relaxation_time = 0.2"}
 
 
 def test_dundurs_constant_is_that_of_the_text_books():
@@ -249,12 +218,3 @@ def test_dundurs_constant_is_that_of_the_text_books():
     stated = (g2 * (1 - 0.6) - g1 * (1 - 0.5)) / (g2 * (1 - 0.3) + g1 * (1 - 0.25)) / 2
     assert bodies.dundurs(steel, glass) == pytest.approx(stated)
     assert bodies.dundurs(glass, steel) == -bodies.dundurs(steel, glass)
-
-
-def test_stated_facts_of_other_sources():
-    """chi of Maw's pucks (nu = 0.28) and the frequency ratio of rubber (Johnson)."""
-    steel = Material(2e11, 0.28)
-    chi = bodies.mass_ratio(bodies.disc(0.02, 1.0)) / (2 * bodies.stiffness_ratio(steel))
-    assert chi == pytest.approx(1.2558, abs=5e-5)
-    rubber = bodies.stiffness_ratio(Material(1e6, 0.5))
-    assert np.sqrt(3.5 / rubber) == pytest.approx(1.53, abs=0.005)

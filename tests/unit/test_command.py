@@ -147,14 +147,14 @@ def test_every_number_is_read_so(command, capsys):
         assert f"argument {option}: '1_0': allowed are" in capsys.readouterr().err
 
 
-def test_export_writes_the_table_of_spheres(capsys, tmp_path):
-    for name, language in (("ball.h", "c"), ("ball.mjs", "js")):
-        path, same = tmp_path / name, tmp_path / "same" / name
-        same.parent.mkdir(exist_ok=True)
-        assert main(["export", str(path), "--as", language, "--tolerance", "0.04"]) == 0
-        assert capsys.readouterr().out == f"{path}: the table of spheres, within 0.04\n"
-        export.write_spheres(same, language, 0.04)
-        assert path.read_text() == same.read_text()
+@pytest.mark.parametrize(("name", "language"), [("ball.h", "c"), ("ball.mjs", "js")])
+def test_export_writes_the_table_of_spheres(name, language, capsys, tmp_path):
+    path, same = tmp_path / name, tmp_path / "same" / name
+    same.parent.mkdir()
+    assert main(["export", str(path), "--as", language, "--tolerance", "0.04"]) == 0
+    assert capsys.readouterr().out == f"{path}: the table of spheres, within 0.04\n"
+    export.write_spheres(same, language, 0.04)
+    assert path.read_text() == same.read_text()
 
 
 # Models, and their errors against the continuum.
@@ -167,53 +167,35 @@ def test_models_are_listed(capsys):
     assert [row["model"] for row in rows_of(capsys.readouterr().out)] == list(models.MODELS)
 
 
-@pytest.fixture
-def listed(monkeypatch, capsys):
-    """Rows that `planarimpact models` prints, by model: of a few models and incidences."""
-    names = "lumped", "lumped.viscous", "rigid", *models.losses("continuum").values(), "continuum"
+@pytest.mark.parametrize(("loss", "e", "mass_ratio"), [("plastic", 0.8, 3.5), (None, 1.0, 1.2)])
+def test_models_are_measured_against_the_continuum(loss, e, mass_ratio, monkeypatch, capsys):
+    """Of the loss that is asked for, or of none at e = 1: here some models at three incidences."""
+    names = "lumped", "lumped.viscous", "continuum", *models.losses("continuum").values()
     monkeypatch.setattr(models, "MODELS", {name: models.MODELS[name] for name in names})
     monkeypatch.setattr(sys.modules[main.__module__], "INCIDENCES", 3)
-
-    def ask(*options):
-        assert main(["models", *options]) == 0
-        said = capsys.readouterr()
-        assert "for mass_ratio 3.5, stiffness_ratio 1.21, restitution " in said.err
-        rows = {row["model"]: row for row in rows_of(said.out)}
-        assert list(rows) == list(names)
-        return {n: [float(row[c]) for c in (RMS, LARGEST, SEEN)] for n, row in rows.items()}
-
-    return ask
-
-
-def incidences(e):
-    return np.linspace(0.0, float(sliding.limit_alike(np.array(3.5), np.array(1.21), e)), 3)
-
-
-def test_models_are_measured_against_the_continuum_of_a_loss(listed):
-    numbers = listed("--restitution", "0.8", "--loss", "plastic")
-    for name in ("lumped", "continuum"):  # elastic alone
+    groups = {"mass_ratio": mass_ratio, "stiffness_ratio": 1.21, "restitution": e}
+    given = [f"--{name.replace('_', '-')}={value:g}" for name, value in groups.items()]
+    given += ["--loss", loss] if loss else []
+    assert main(["models", *given]) == 0
+    said = capsys.readouterr()
+    assert f"for mass_ratio {mass_ratio}, stiffness_ratio 1.21, restitution {e:g}" in said.err
+    rows = {row["model"]: row for row in rows_of(said.out)}
+    assert list(rows) == list(names)
+    numbers = {name: [float(row[c]) for c in (RMS, LARGEST, SEEN)] for name, row in rows.items()}
+    for name in ("lumped", "continuum") if loss else ():  # elastic alone
         assert np.isnan(numbers.pop(name)).all()
     for rms, largest, seen in numbers.values():
         assert 0 < rms <= largest and 0 <= seen <= 1
-    _, largest, seen = numbers["continuum.plastic"]
-    assert largest <= 1e-4 and seen == 0
-    x = incidences(0.8)
-    other, exact = (
-        continuum.rebound(x, restitution=0.8, loss=loss, tolerance=1e-4).velocity
-        for loss in ("viscous", "plastic")
-    )
+    bounds = {"continuum.viscous": 1e-4, "continuum": 1e-6}
+    for name, bound in ({"continuum.plastic": 1e-4} if loss else bounds).items():
+        assert numbers[name][1] <= bound and numbers[name][2] == 0
+    limit = sliding.limit_alike(*map(np.array, groups.values()))
+    x = np.linspace(0.0, float(limit), 3)
+    other = lumped.rebound(x, **groups, loss="viscous").velocity
+    exact = continuum.rebound(x, **groups, loss=loss, tolerance=1e-3).velocity
     error = np.abs(other - exact)
     wanted = [np.sqrt(np.mean(error**2)), error.max()]
-    assert numbers["continuum.viscous"][:2] == pytest.approx(wanted, rel=0.06)
-
-
-def test_models_at_e_1_have_the_elastic_continuum(listed):
-    numbers = {name: rms for name, (rms, *_) in listed("--restitution", "1").items()}
-    assert all(value > 0 for value in numbers.values())
-    assert numbers["continuum"] <= 1e-6 and numbers["continuum.viscous"] <= 1e-4
-    x = incidences(1.0)
-    error = lumped.rebound(x).velocity - continuum.rebound(x).velocity
-    assert numbers["lumped"] == pytest.approx(np.sqrt(np.mean(error**2)), rel=0.06)
+    assert numbers["lumped.viscous"][:2] == pytest.approx(wanted, rel=0.06)
 
 
 # Help, and the end of a pipe.

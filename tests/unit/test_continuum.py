@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from planarimpact import ConvergenceError, continuum
 from planarimpact.continuum import annuli, inelastic
-from planarimpact.normal_impact import kelvin_voigt, yielding
+from planarimpact.normal_impact import yielding
 
-EXACT = {"rtol": 1e-11, "atol": 1e-13}
 # What is tested of them here does not depend on how exact they are.
 COARSE = {continuum.rebound: {"tolerance": 1e-3}, annuli.rebound: {"circles": 8, "steps": 64}}
 
@@ -75,35 +74,6 @@ def test_impacts_without_an_answer_are_all_named(monkeypatch):
     with pytest.raises(continuum.Unsolved) as refused:
         continuum.rebound([0.5, 0.01, 3.0, 2.0], tolerance=1e-7)
     assert refused.value.impacts.tolist() == [0, 2, 3]
-
-
-@pytest.mark.parametrize("tau", [1e-4, 0.05, 0.3, 1.0, 3.0])
-def test_restitution_of_viscous_spheres_by_integration_in_time(tau):
-    """Kuwabara & Kono in loading, F = (4/3) D^(3/2) in unloading, by SciPy and in plain time."""
-
-    def force(d, v):
-        if v > 0:
-            return 4 / 3 * (max(d, 0) ** 1.5 + 1.5 * tau * max(d, 0) ** 0.5 * v)
-        return 4 / 3 * max(d + tau * v, 0.0) ** 1.5
-
-    def stop(event):
-        event.terminal, event.direction = True, -1
-        return event
-
-    def slopes(_, y):
-        return [y[1], -force(*y)]
-
-    # The first instants by a series: F is not differentiable at d = 0.
-    early = 1e-7
-    start = [early - 2 * tau * (4 / 15) * early**2.5, 1 - 2 * tau * (2 / 3) * early**1.5]
-    ends = stop(lambda _, y: y[1]), stop(lambda _, y: y[0] + tau * y[1])
-    loading = solve_ivp(slopes, (0, 50), start, events=ends[0], method="DOP853", **EXACT)
-    after = [loading.y[0, -1], 0.0]
-    unloading = solve_ivp(slopes, (0, 500), after, events=ends[1], method="DOP853", **EXACT)
-    found = kelvin_voigt.restitution(np.array([tau]))
-    assert found == pytest.approx(-unloading.y[1, -1], abs=1e-8)
-    back = kelvin_voigt.relaxation_time(found)
-    assert back == pytest.approx(tau, rel=1e-9)
 
 
 @pytest.mark.parametrize("loss", continuum.LOSSES)

@@ -74,18 +74,13 @@ def linear(lines, yade, wall):
         found |= dict(re.findall(r"^atWall->set(\w+)\((.*)\);", lines, re.M)) if wall else {}
         names = "Stiffness Dissipation SlidingStiffness SlidingDissipation"
         return [float(found[name]) for name in names.split()]
-    bodies_of = "of_spheres", "of_walls" if wall else "of_spheres"
-    (one, other) = (
-        {
-            name: float(value)
-            for name, value in re.findall(
-                r"\b(\w\w)=([-+.e\d]+)", re.search(rf"^{body} = .*$", lines, re.M)[0]
-            )
-        }
-        for body in bodies_of
-    )
-    # Bodies are in series.
-    return [1 / (1 / one[n] + 1 / other[n]) if one[n] else 0.0 for n in ("kn", "cn", "ks", "cs")]
+    of_bodies = {
+        body: dict(re.findall(r"\b(\w\w)=([-+.e\d]+)", text))
+        for body, text in re.findall(r"^(of_\w+) = (.*)$", lines, re.M)
+    }
+    one, other = of_bodies["of_spheres"], of_bodies["of_walls" if wall else "of_spheres"]
+    pairs = [(float(one[name]), float(other[name])) for name in ("kn", "cn", "ks", "cs")]
+    return [1 / (1 / a + 1 / b) if a else 0.0 for a, b in pairs]  # bodies are in series
 
 
 def lammps(lines, mass, radius):
@@ -148,45 +143,39 @@ def in_si(law, lines, x, mass, radius, wall=False, finer=1, begins=0.0):
 
 @functools.cache
 def of_half(law):
-    """A fit at e = 0.5."""
+    """A fit at e = 0.5, and its lines."""
     zeta2 = float(bodies.stiffness_ratio(GLASS))
-    return fit.fit(law, 3.5, zeta2, 0.5, loss="plastic", incidence_max=6.0)
+    one = fit.fit(law, 3.5, zeta2, 0.5, loss="plastic", incidence_max=6.0)
+    return one, fit.lines(one, GLASS, **SPHERE)
 
 
-# Mass and radius of a contact over those of one sphere, and which contacts a code serves so.
-CONTACTS = {"pair": (1 / 2, 1 / 2), "wall": (1.0, 1.0), "radii 1:3": (27 / 28, 3 / 4)}
-SERVED = [
-    (law, name)
-    for law in fit.CODES
-    for name in (CONTACTS if law.startswith("lammps") else ("pair", "wall"))
-]
+def served(law):
+    """Mass and radius, over those of one sphere, of the contacts that a code serves with them."""
+    contacts = {"pair": (1 / 2, 1 / 2), "wall": (1.0, 1.0)}
+    return contacts | ({"radii 1:3": (27 / 28, 3 / 4)} if law.startswith("lammps") else {})
 
 
-@pytest.mark.parametrize(("law", "name"), SERVED)
-def test_the_lines_have_the_contact_of_the_fit(law, name):
+@pytest.mark.parametrize("law", fit.CODES)
+def test_the_lines_have_the_contact_of_the_fit(law):
     """By the loop of each code, a number at a time, in SI units, from the printed numbers."""
-    one = of_half(law)
-    lines = fit.lines(one, GLASS, **SPHERE)
-    mass, radius = CONTACTS[name]
-    contact = MASS * mass, 0.002 * radius
-    places, wall = [7, 30, 60, 90], name == "wall"
-    steps = one.after[places]
-    if name != "pair":  # it lasts another number of steps, so both are stepped more finely
-        contact_law = LAWS[law, one.style]
-        groups = 3.5, one.stiffness, one.damping, one.told
+    one, lines = of_half(law)
+    groups = 3.5, one.stiffness, one.damping, one.told
+    places = [7, 30, 60, 90]
+    for name, (mass, radius) in served(law).items():
+        # What is no pair lasts another number of steps, so both are stepped more finely.
+        finer = 1 if name == "pair" else 10
         steps = timestep.with_dashpots(
-            contact_law, one.incidence[places], *groups, 10 * timestep.DASHPOT_STEPS
+            LAWS[law, one.style], one.incidence[places], *groups, finer * timestep.DASHPOT_STEPS
         )
-    finer = 1 if name == "pair" else 10
-    stepped = [in_si(law, lines, one.incidence[i], *contact, wall, finer) for i in places]
-    np.testing.assert_allclose([w for w, _ in stepped], steps, atol=1e-3)
-    assert stepped[0][1] == pytest.approx(one.restitution, abs=2e-3)
+        contact = MASS * mass, 0.002 * radius, name == "wall", finer
+        stepped = [in_si(law, lines, one.incidence[i], *contact) for i in places]
+        np.testing.assert_allclose([w for w, _ in stepped], steps, atol=1e-3, err_msg=name)
+        assert stepped[0][1] == pytest.approx(one.restitution, abs=2e-3)
 
 
 @pytest.mark.parametrize("law", ["mercurydpm", "yade"])
 def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law):
-    one = of_half(law)
-    lines = fit.lines(one, GLASS, **SPHERE)
+    one, lines = of_half(law)
     said = re.search(r"would have e = (.*), instead of (.*), with", lines)
     _, e = in_si(law, lines, 1.0, MASS, 0.002, finer=10)
     assert float(said[1]) == pytest.approx(e, abs=2e-3) and float(said[2]) == one.restitution
@@ -243,7 +232,7 @@ def test_a_time_step_for_the_smallest_sphere_serves_all(law, power):
 
 @pytest.mark.parametrize("friction", [1.0, 1.001])
 def test_the_lines_say_where_friction_is_larger_than_measured(friction):
-    lines = fit.lines(of_half("lammps-hooke"), GLASS, **SPHERE | {"friction": friction})
+    lines = fit.lines(of_half("lammps-hooke")[0], GLASS, **SPHERE | {"friction": friction})
     assert ("larger mu it is more, and was not measured" in lines) == (friction > 1)
 
 

@@ -80,13 +80,6 @@ def test_no_admissible_tangential_restitution_creates_energy():
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_a_scalar_gives_scalars(law):
-    result = law(2.0)
-    assert np.ndim(result.velocity) == 0 and result.regime is Regime.UNRESOLVED
-    assert law(0.0).regime is Regime.STICK
-
-
-@pytest.mark.parametrize("law", LAWS)
 def test_sliding_loses_no_digits_of_dissipation(law):
     x = np.array([20.0, 1e16, 1e300])
     result = law(x, 3.5, 1.21, 0.5)

@@ -97,19 +97,6 @@ def test_limits_of_slip_throughout():
     np.testing.assert_array_equal(at_0, [[3.5, 5.0], [3.5, 3.5], [3.5, 5.0]])
 
 
-def test_viscous_contact_next_to_resonance_starts_no_stick_by_rounding():
-    """T and N are in proportion there, all along: stick and slip differ by rounding only."""
-    near = 1 + np.concatenate([-np.geomspace(1e-16, 1e-3, 200), np.geomspace(1e-16, 1e-3, 200)])
-    for e in (0.01, np.exp(-2), 0.999, 1 - 1e-12):
-        for beta in (1.0, 5.119047748496251):
-            zeta2 = np.append(beta * near, beta)
-            for x in (0.3 * zeta2, zeta2, np.nextafter(zeta2, 0)):
-                result = lumped.rebound(x, beta, zeta2, e, loss="viscous")
-                stuck = -e * x  # the limit of equal ratios
-                away = np.append(np.abs(near - 1), 0)
-                assert (np.abs(result.velocity - stuck) <= 20 * (away + 1e-15) * beta).all()
-
-
 # One contact.
 
 
@@ -119,7 +106,6 @@ def test_viscous_contact_next_to_resonance_starts_no_stick_by_rounding():
 def test_a_history_is_that_of_its_rebound(groups, x, loss):
     contact = lumped.history(x, *groups, samples=2000, loss=loss)
     result = lumped.rebound(x, *groups, loss=loss)
-    assert contact.velocity[-1] == pytest.approx(result.velocity, abs=1e-12)
     share = np.abs(contact.friction).max() / contact.normal.max()
     assert share == pytest.approx(result.peak_friction, abs=1e-5)
     assert (np.diff(contact.time) >= 0).all() and contact.time[0] == 0
@@ -160,8 +146,6 @@ def test_without_restitution_the_spring_keeps_the_rest_of_the_loss():
         ("peak_friction", 1e-26, (1.0655893404136876, 1.0655789130626547, 256863749330.29388, 0.1)),
         # Hardly anything is lost, 2e-20.
         ("dissipation", 1e-34, (1e-5, 1.0, 1e10, 0.3)),
-        # Resonance: 1e-33 lost of 2e-3, if the arguments are exact.
-        ("dissipation", 1e-30, (0.067495625, 1.07993, 0.06749562499999999, 0.5)),
         # Slip starts near a double zero.
         ("dissipation", 1e-15, (1.7420800000000003, 41.8356, 1.74208, 1.0)),
     ],
@@ -207,6 +191,60 @@ def test_a_bracket_finds_the_onsets_that_free_steps_find(monkeypatch):
     bracketed = lumped.rebound(*groups)
     np.testing.assert_allclose(bracketed.velocity, free.velocity, rtol=0, atol=1e-14)
     np.testing.assert_array_equal(bracketed.regime, free.regime)
+
+
+# Many phases: the table of test_lumped_reference has impacts of up to 3000.
+
+
+def many_phases(rates, seed=1):
+    """Random impacts x, beta, zeta^2, e that stick and slip with these rates nu = e omega."""
+    rng = np.random.default_rng(seed)
+    shape = np.shape(rates)
+    beta, e = rng.uniform(1, 8, shape), rng.uniform(0.1, 1, shape)
+    # Slip first to restitution only where phases are few: those impacts take a loop of their own.
+    x = rng.uniform(0.1, np.where(np.asarray(rates) < 3000, 1.5, 1.0)) * beta
+    return x, beta, (e / np.asarray(rates)) ** 2 * beta, e
+
+
+def test_jump_agrees_with_the_phases(monkeypatch):
+    rates = np.geomspace(200, 6e3, 8)
+    groups = many_phases(rates)
+    jumped = lumped.rebound(*groups)
+    monkeypatch.setattr(stick_slip, "STICKS_BEFORE_SKIP", -1)  # all, one after the other
+    followed = lumped.rebound(*groups)
+    scale = groups[2] / groups[3]  # of the velocity, zeta^2/e
+    assert (np.abs(jumped.velocity - followed.velocity) <= 1e-12 * rates * scale).all()
+    np.testing.assert_allclose(jumped.dissipation, followed.dissipation, rtol=1e-13)
+    np.testing.assert_array_equal(jumped.peak_friction, followed.peak_friction)
+    np.testing.assert_array_equal(jumped.regime, followed.regime)
+    assert (jumped.velocity != followed.velocity).any()  # it did jump
+
+
+def test_number_of_steps_does_not_depend_on_the_number_of_phases(monkeypatch):
+    searched = []
+    true = slip_onset.in_restitution
+    monkeypatch.setattr(
+        slip_onset, "in_restitution", lambda *a: searched.append(a[0].size) or true(*a)
+    )
+    for zeta2 in (1e-6, 1e-8, 1e-12, 1e-30, 1e-300, 5e-324):
+        searched.clear()
+        result = lumped.rebound(2.0, 3.5, zeta2, 0.9)
+        assert result.regime == Regime.MULTIPLE
+        assert len(searched) < 450
+
+
+@pytest.mark.parametrize("zeta2", [1e-4, 1e-6, 1e-8, 1e-12, 1e-100, 1e-300, 5e-324])
+def test_vanishing_compliance_tends_to_the_rigid_contact(zeta2):
+    x = np.array([0.0, 5e-324, 1e-300, 1e-4, 0.3, 1.0, 3.4, 3.5, 3.6, 5.0, 6.6, 6.7, 9.0, 1e300])
+    e = np.array([1.0, 0.9, 1e-3])[:, None]
+    found, limit = lumped.rebound(x, 3.5, zeta2, e), rigid.rebound(x, 3.5, restitution=e)
+    gap = np.maximum(np.sqrt(3.5 * zeta2), 1e-150)
+    assert (np.abs(found.velocity - limit.velocity) <= gap + 1e-15 * limit.velocity).all()
+    # Where the first slip ends; not where x is as small as zeta^2 and stick comes first.
+    slides = x > zeta2
+    close = gap * 4 + 1e-14 * limit.dissipation
+    assert (np.abs(found.dissipation - limit.dissipation) <= close)[:, slides].all()
+    assert (np.abs(found.velocity) <= x).all()
 
 
 # No tangential compliance.

@@ -56,12 +56,6 @@ def test_a_merge_may_be_overridden_and_merged_again(tmp_path):
     }  # fmt: skip
 
 
-def test_stated_values_have_uncertainties_of_their_own(inventory):
-    found = reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])
-    sigmas = found["restitution_uncertainty [1]"]
-    assert len(set(sigmas)) > 1 and (sigmas > 0).all()
-
-
 def test_a_sigma_may_be_a_hundredth_of_the_range_and_a_measured_one_larger():
     axis = {"range": [0, 10], "sigma": 0.1}
     reference_data._refuse_axis("x", axis, "digitised")

@@ -2,9 +2,11 @@
 
 A folder there is a package, and a table a room of it. A call knows `np`, `tmp_path`, what
 `planarimpact` exports, and the names that the `setup` of its table makes. `error` names the type
-of what is raised, ValueError if it is not there.
+of what is raised, ValueError if it is not there, and `seconds` how long it may take at most, of the
+processor, where too large a task is refused before it starts.
 """
 
+import time
 import tomllib
 from pathlib import Path
 
@@ -17,22 +19,25 @@ TABLES = Path(__file__).parents[1] / "refusals"
 
 
 def rows():
-    """Each row of each table: set-up, call, words of the message, and the type of the error."""
+    """Each row of each table: set-up, call, words of the message, type of the error, seconds."""
     for path in sorted(TABLES.glob("*/*.toml")):
         table = tomllib.loads(path.read_text(encoding="utf-8"))
         for row in table["refused"]:
             entry = row if isinstance(row, dict) else dict(zip(("call", "words"), row, strict=True))
             error = entry.get("error", table.get("error", "ValueError"))
             given = table.get("setup", ""), entry["call"], entry["words"], error
-            yield pytest.param(*given, id=f"{path.stem}: {entry['call']}")
+            seconds = table.get("seconds", np.inf)
+            yield pytest.param(*given, seconds, id=f"{path.stem}: {entry['call']}")
 
 
-@pytest.mark.parametrize(("setup", "call", "words", "error"), list(rows()))
-def test_bad_input_is_refused_in_one_line(setup, call, words, error, tmp_path):
+@pytest.mark.parametrize(("setup", "call", "words", "error", "seconds"), list(rows()))
+def test_bad_input_is_refused_in_one_line(setup, call, words, error, seconds, tmp_path):
     names = {name: getattr(planarimpact, name) for name in planarimpact.__all__}
     names |= {"np": np, "tmp_path": tmp_path}
     exec(setup, names)
+    start = time.process_time()
     with pytest.raises(eval(error, names)) as refusal:
         eval(call, names)
+    assert time.process_time() - start < seconds
     message = str(refusal.value)
     assert words in message and "\n" not in message

@@ -70,8 +70,7 @@ def every_kind(law=None):
         {"restitution": 1.0, "loss": ""},
         {},
         {"loss": " plastic"},
-        {"restitution": 0.1, "friction": 2.0},
-        {"restitution": 0.2, "loss": "plastic", "other_gyration [m]": 0.015},
+        {"restitution": 0.1, "loss": "plastic", "other_gyration [m]": 0.015},
         {"friction": 0.01},
         {"friction": 0.01, "loss": "plastic"},
         {"friction": 0.0},
@@ -88,13 +87,9 @@ def vector(row, name, unit, ending=""):
     return np.array([row[f"{name}_{axis}{ending} [{unit}]"] for axis in "xyz"])
 
 
-def contact_velocity(normal, radius, velocity, spin):
-    return velocity + radius * np.cross(spin, normal)
-
-
 @pytest.mark.parametrize("law", [None, {"relaxation_time [s]": 2e-6}, {"yield_pressure [Pa]": 3e9}])
 def test_a_row_is_what_collide_says_alone(law):
-    """By any law of restitution, with what a table says beside: energy, contact and force."""
+    """By any law of restitution, with what a table says beside: energy, and force by a law."""
     after, steel = scene.solve(every_kind(law)), bodies.Material(207e9, 0.3)
     for (_, given), (_, found) in zip(every_kind(law).iterrows(), after.iterrows(), strict=True):
         said = {name.split()[0]: value for name, value in (law or {}).items()}
@@ -128,30 +123,19 @@ def test_a_row_is_what_collide_says_alone(law):
                     energy += sign * body.mass / 2 * (v @ v + body.gyration**2 * w @ w)
         if not wall:  # it moves, and does work
             assert found["energy_lost [J]"] == pytest.approx(energy, rel=1e-9)
-        first, last = (
-            contact_velocity(normal, -0.01, *states[:2])
-            - contact_velocity(normal, other.radius, *states[2:])
-            for states in (before, then)
-        )
-        sideways = first - normal * (first @ normal)
-        size = np.linalg.norm(sideways)
-        wanted = last @ sideways / (size or 1.0)
-        assert found["contact_velocity_after [m/s]"] == pytest.approx(wanted, abs=1e-12)
-        if alone.restitution > 0:
+        if law and alone.restitution > 0:
             radius = 0.01 if wall else bodies.effective_radius(0.01, 0.02)
-            mass = bodies.effective_masses(ball, other)[1]
-            contact = mass, -first @ normal, pair.effective_modulus, radius
-            if law:
-                (name, value), speed = *law.items(), contact[1]
-                by_law = LAWS[name](speed, value, mass, pair.effective_modulus, radius)
-                assert found["restitution"] == pytest.approx(float(by_law), rel=1e-12)
-            force = bodies.peak_force(*contact, alone.restitution, lossy)
+            contact = bodies.effective_masses(ball, other)[1], pair.effective_modulus, radius
+            (name, value), speed = *law.items(), (before[2] - before[0]) @ normal
+            by_law = LAWS[name](speed, value, *contact)
+            assert found["restitution"] == pytest.approx(float(by_law), rel=1e-12)
+            force = bodies.peak_force(contact[0], speed, *contact[1:], alone.restitution, lossy)
             assert found["peak_normal_force [N]"] == pytest.approx(float(force), rel=1e-9)
 
 
 def test_neither_order_nor_blocks_show(monkeypatch):
     """The index is that of the table, also where it names rows twice."""
-    rows = every_kind().drop(3).set_axis([*"abcdefgaa"])  # row 3 takes its time
+    rows = every_kind().drop(3).set_axis([*"abcdefaa"])  # row 3 takes its time
     whole = scene.solve(rows)
     order = np.random.default_rng(5).permutation(len(rows))
     monkeypatch.setattr(solver, "BLOCK", 3)
@@ -217,6 +201,7 @@ def test_two_bodies_by_hand():
     impulse = m1 * 0.6 * (found.velocity - x)
     assert after["incidence"] == pytest.approx(x)
     assert after[AFTER] == pytest.approx(1.0 + impulse / ball.mass)
+    assert after["contact_velocity_after [m/s]"] == pytest.approx(0.6 * found.velocity)
     assert after["spin_after [rad/s]"] == pytest.approx(30.0 + 2.5 * impulse / ball.mass / 0.01)
     assert after["other_velocity_tangential_after [m/s]"] == pytest.approx(-impulse / 0.05)
     assert after["other_spin_after [rad/s]"] == pytest.approx(0.02 * impulse / 0.05 / 0.013**2)
@@ -306,20 +291,22 @@ def by_incidence(x, **more):
     return rows.assign(**{"velocity_tangential [m/s]": UNIT * np.asarray(x)}, **more)
 
 
-@pytest.mark.parametrize("e", [pytest.param(0.95, marks=pytest.mark.long), 0.8, 0.4, 0.25])
+LONG = [pytest.param(e, marks=pytest.mark.long) for e in (0.4, 0.8, 0.95)]
+
+
+@pytest.mark.parametrize("e", [0.25, *LONG])
 def test_model_form_is_the_distance_of_the_two_continua(e):
-    """By the table it is wrong by two errors of the table at most, solved by 0.01 mu v2(0)."""
-    x = np.linspace(0.0, 6.0, 7) if e > 0.3 else np.array([0.5, 2.5])
+    """By the table, as in the scenes of the run, or solved, where it is within 0.01 mu v2(0)."""
+    x = np.linspace(0.0, 6.0, 7) if e > 0.3 else np.array([2.5])
     velocities = [
         continuum.rebound(x, *GROUPS, e, loss=loss, tolerance=1e-4).velocity
         for loss in continuum.LOSSES
     ]
     wanted = np.abs(velocities[1] - velocities[0])
     assert wanted.max() > 0.02  # there is something to see
-    slack = max(spheres.ERROR_BOUND.values()) + 1e-4
-    slack = 2 * slack if e >= spheres.LEAST_RESTITUTION else 0.011
+    slack = 2 * (max(spheres.ERROR_BOUND.values()) + 1e-4) if e > 0.3 else 0.011
     for loss in continuum.LOSSES:
-        form = scene.solve(by_incidence(x, restitution=e), 1e-3 if e < 0.3 else 5e-3, loss)[FORM]
+        form = scene.solve(by_incidence(x, restitution=e), 5e-3 if e > 0.3 else 1e-3, loss)[FORM]
         assert np.abs(form - UNIT * wanted).max() <= UNIT * slack
 
 
@@ -327,8 +314,8 @@ def test_model_form_may_be_unknown(monkeypatch):
     """Where the continuum of the other loss has no answer to its tolerance."""
     monkeypatch.setattr(model_form, "TOLERANCE", 1e-12)
     found = scene.Solver(1e-2, "viscous")
-    after = found.solve(by_incidence([2.0, 0.0, 2.0], restitution=[0.2, 0.2, 0.8]))
-    assert after[FORM].isna().tolist() == [True, False, False]
+    after = found.solve(by_incidence([2.0, 2.0], restitution=[0.2, 0.8]))
+    assert after[FORM].isna().tolist() == [True, False]
     assert after[AFTER].notna().all()
     assert found.explain().endswith("2 impacts, not known for 1")
 

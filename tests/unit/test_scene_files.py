@@ -11,7 +11,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from planarimpact import ConvergenceError, InputError, scene
+from planarimpact import InputError, scene
 from planarimpact.__main__ import main
 from planarimpact.collision import TOLERANCE
 from planarimpact.scene import files
@@ -211,14 +211,6 @@ def test_a_bad_row_leaves_nothing_behind_or_is_left_out(table, capsys, small, re
     impacts().to_csv(table, index=False)
     files.solve(table, out, skip_bad=True)
     assert bad.read_text() == "row,problem\n"  # of the result that is there
-
-
-def test_a_contact_without_an_answer_leaves_nothing_behind(table):
-    needle = {"mass [kg]": 0.1, "gyration [m]": 1e-7, "friction": 0.3, "restitution": 1.0}
-    impacts(**needle).drop(columns="density [kg/m^3]").to_csv(table, index=False)
-    with pytest.raises(ConvergenceError, match="row 1: "):
-        files.solve(table, table.with_name("out.csv"))
-    assert os.listdir(table.parent) == ["in.csv"]
 
 
 def test_a_table_is_not_replaced_by_its_result(table):

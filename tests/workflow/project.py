@@ -2,12 +2,11 @@
 
 import contextlib
 import functools
-import json
+import multiprocessing
 import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
@@ -16,11 +15,14 @@ from stronge1994 import reference_data
 from stronge1994.ledger import entries
 from stronge1994.plan import config as configuration
 from stronge1994.run import record
+from tests.workflow import started
 
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
 PARTS += ["LICENSE", "CITATION.cff"]
 LEFT = ["results", "figures", ".snakemake"]  # by a run
+STARTS = multiprocessing.get_context("forkserver")
+STARTS.set_forkserver_preload(started.PRELOADED)
 TIMEOUT = 3600  # s, against a run that hangs, not against a busy machine
 
 
@@ -62,7 +64,8 @@ class Run:
         number, words = tempfile.mkstemp(prefix="words", dir=folder.parent)
         os.close(number)
         self.words = Path(words)
-        self.id = _asked("start", str(folder), arguments, words)
+        self.process = STARTS.Process(target=started.start, args=(folder, arguments, words))
+        self.process.start()
 
     def wait_for(self, there):
         """Wait until there is what this function looks for."""
@@ -73,23 +76,9 @@ class Run:
 
     def ended(self):
         """Wait for the end. Output and errors are one text, `stdout`."""
-        code = _asked("wait", self.id)
-        return subprocess.CompletedProcess([], code, self.words.read_text(encoding="utf-8"))
-
-
-@functools.cache
-def starter():
-    """The process that starts Snakemake, see started.py, as in an activated environment."""
-    command = [sys.executable, "-P", str(ROOT / "tests/workflow/started.py")]
-    activated = os.environ | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-    return subprocess.Popen(command, env=activated, text=True, **pipes)
-
-
-def _asked(*question):
-    starter().stdin.write(json.dumps(question) + "\n")
-    starter().stdin.flush()
-    return int(starter().stdout.readline())
+        self.process.join()
+        words = self.words.read_text(encoding="utf-8")
+        return subprocess.CompletedProcess([], self.process.exitcode, words)
 
 
 class Project:

@@ -1,41 +1,22 @@
-"""A process that has imported Snakemake once, and forks for each start: this saves seconds each.
+"""What the process of a start does: it imports nothing of this project, whose copy it runs."""
 
-It imports nothing of this project, so a start takes the sources of its own folder. It reads lines
-`["start", folder, arguments, file for what is printed]`, answered by the process id, and
-`["wait", process id]`, answered by the exit code.
-"""
-
-import importlib
-import json
 import os
 import sys
 
-from snakemake import cli
-
-# What Snakemake and our Snakefile import on their way.
-LATER = ["nbformat", "numpy", "pandas", "scipy.integrate", "scipy.interpolate", "smart_open"]
+# What Snakemake and our Snakefile import on their way: it is imported once, which saves seconds.
+PRELOADED = ["snakemake.cli", "snakemake.report.html_reporter", "nbformat", "numpy", "pandas"]
+PRELOADED += ["scipy.integrate", "scipy.interpolate", "smart_open"]
 
 
 def start(folder, arguments, words):
-    """Do what `python -m snakemake` does in a folder, and end this process with it."""
+    """Do what `python -m snakemake` does in a folder of an activated environment."""
     os.setsid()
     os.chdir(folder)
-    given = os.open(os.devnull, os.O_RDONLY)
-    printed = os.open(words, os.O_WRONLY)
-    for number, file in enumerate((given, printed, printed)):
-        os.dup2(file, number)
+    os.environ["PATH"] = f"{os.path.dirname(sys.executable)}:{os.environ['PATH']}"
+    for number in (1, 2):
+        os.dup2(os.open(words, os.O_WRONLY), number)
     sys.argv = ["snakemake", *arguments]
+
+    from snakemake import cli
+
     cli.main(arguments)
-
-
-if __name__ == "__main__":
-    cli.get_argument_parser()  # it imports all plugins
-    for name in LATER:
-        importlib.import_module(name)
-    for line in sys.stdin:
-        what, *given = json.loads(line)
-        if what == "wait":
-            answer = os.waitstatus_to_exitcode(os.waitpid(*given, 0)[1])
-        elif not (answer := os.fork()):
-            start(*given)
-        print(answer, flush=True)

@@ -1,4 +1,4 @@
-"""The models of the explorer, their words and their drawings say what the package solves."""
+"""The models of the explorer and their drawings say what the package solves."""
 
 import json
 import math
@@ -70,6 +70,8 @@ def test_one_impact_is_within_the_error_that_the_page_says(loss, scripts):
     assert errors.max() <= write_explorer.CONTINUUM_ERROR, rows[errors.max(axis=0).argmax()]
     exact = slides.astype(bool) & (theirs.regime == Regime.SLIP_THROUGHOUT)
     assert exact.sum() >= 5 and errors[0, exact].max() < 1e-12
+    limit = continuum.slip_throughout_limit(*SOLID, 0.5, loss=loss)
+    assert abs(scripts.evaluate(f"{impact(loss, 2.0, 0.5)}.limit") - limit) < 0.01
 
 
 @pytest.mark.parametrize("style", ["elastic", *continuum.LOSSES])
@@ -110,17 +112,42 @@ def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
     assert np.mean(np.abs(stick - wanted)[1:-1] < 0.05) > 0.97
 
 
-@pytest.mark.parametrize("loss", continuum.LOSSES)
-def test_bands_begin_where_the_package_slips_throughout(loss, scripts):
-    wanted = continuum.slip_throughout_limit(*SOLID, 0.5, loss=loss)
-    assert abs(scripts.evaluate(f"{impact(loss, 2.0, 0.5)}.limit") - wanted) < 0.01
+# Zones of the patch from outside, and friction by stress: 2 pi times the integral of r times
+# stress, which Abel's transform keeps.
+PATCH = f"""({{ contact, e }}, times) => times.map((time) => {{
+  const row = models.at(contact, time), motion = continuum.normal(e, contact.style);
+  const edge = Math.sqrt(row.limit.square), n = 1000;
+  const radii = Array.from({{ length: n }}, (_, i) => ((i + 0.5) / n) * edge);
+  const {{ stress }} = {node.expression("patch", "return { show,", "return { stress, show,")};
+  const values = stress(row.density, motion.radius / motion.springs, edge, radii, 1);
+  const sum = radii.reduce((sum, r, i) => sum + r * values[i], 0) * edge / n;
+  const zones = patch.show(contact.style, row, 1, motion);
+  return [2 * sum / motion.largest, row.friction, zones.map((one) => [one.slip, one.outer])];
+}})"""
 
 
-# ---- curves, as the charts draw them
+@pytest.mark.parametrize(("e", "style"), [(1, "elastic"), (0.6, "viscous"), (0.6, "plastic")])
+def test_the_patch_shows_friction_and_where_it_slips(e, style, scripts):
+    x, times = math.tan(math.radians(30)) / 0.4, [0.3, 0.7, 1, 1.2, 1.5]
+    shown = scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times})")
+    ours, friction = np.transpose([row[:2] for row in shown])
+    assert np.abs(friction).max() > 0.3
+    assert np.abs(ours - friction).max() < 0.03 * np.abs(friction).max()
+    if style == "elastic":
+        theirs = continuum.history(x, *SOLID)
+        for time, (_, _, zones) in zip(times, shown, strict=True):
+            radius = np.interp(time, theirs.time, theirs.contact_radius)
+            stick = np.interp(time, theirs.time, theirs.stick_radius)
+            slip, inner = zones[-1]
+            assert abs(zones[0][1] - radius) < 0.05
+            assert abs((0 if slip else inner) - stick) < 0.05
 
-CHARTS = """(draw, impact, ...more) => {
+
+# ---- charts, the microscope and energies
+
+CHART = """(draw, impact, ...more) => {
   const svg = { setAttribute() {} };
-  const scales = charts[draw](svg, 500, impact, ...more);
+  charts[draw](svg, 500, impact, ...more);
   return svg.innerHTML;
 }"""
 
@@ -151,7 +178,7 @@ def test_curves_against_incidence_are_those_of_the_package(view, scripts):
     e, mu = 0.5, 0.5
     styles = scripts.evaluate(f"models.chosen({{ e: {e} }}, models.TOGGLES)")
     assert styles == ["lumped", "rigid", *continuum.LOSSES]
-    drawn = f"({CHARTS})('incidence', {impact('lumped', 2.0, e)}, '{view}', {styles}, 13)"
+    drawn = f"({CHART})('incidence', {impact('lumped', 2.0, e)}, '{view}', {styles}, 13)"
     markup = scripts.evaluate(drawn)
     for style in styles:
         every = 1 if style in ("lumped", "rigid") else 8
@@ -185,23 +212,6 @@ def rubber(request, scripts):
     return e, found, lambda expression: scripts.evaluate(f"((impact) => {expression})({given})")
 
 
-def so_far(found, rate):
-    """Integral of a rate over Omega t up to each instant, by trapezia."""
-    pieces = (rate[1:] + rate[:-1]) / 2 * np.diff(found.time) * math.pi / 2
-    return np.concatenate([[0], np.cumsum(pieces)])
-
-
-def test_curves_and_phases_in_time_are_those_of_the_package(rubber):
-    e, found, evaluate = rubber
-    for chart, style in (("forces", "normal"), ("forces", "friction"), ("velocity", "velocity")):
-        time, values = curve(evaluate(f"({CHARTS})('{chart}', impact)"), style)
-        assert_near(values, np.interp(time, found.time, getattr(found, style)))
-    starts = [event.time for event in found.events if event.kind in ("stick", "slip")]
-    phases = evaluate("impact.phases.map((one) => [one.start, one.sticks ? 0 : one.side])")
-    assert np.abs(np.array(phases)[:, 0] - starts).max() < 1e-9
-    assert [side for _, side in phases] == [1, 0, 1 if e == 0.3 else -1]
-
-
 def test_energies_at_any_time_are_those_of_the_springs_and_of_friction(rubber):
     e, found, evaluate = rubber
     # None in the last step of the page before t_c: what is lost there, is lost in an instant.
@@ -210,8 +220,10 @@ def test_energies_at_any_time_are_those_of_the_springs_and_of_friction(rubber):
     shares = np.array(
         evaluate(f"{times}.map((t) => Object.values(models.at(impact.contact, t).energy))")
     )
+    rate = found.friction * found.velocity
+    work = (rate[1:] + rate[:-1]) / 2 * np.diff(found.time) * math.pi / 2
     sheared = ZETA2 * found.friction**2
-    slipped = 2 * so_far(found, found.friction * found.velocity) - sheared
+    slipped = 2 * np.concatenate([[0], np.cumsum(work)]) - sheared
     normal = (found.normal * np.where(found.time > 1, e, 1)) ** 2
     before = 1 + (FRICTION * INCIDENCE) ** 2 / BETA
     wanted = ((2, normal), (3, FRICTION**2 * sheared), (5, FRICTION**2 * slipped))
@@ -220,10 +232,8 @@ def test_energies_at_any_time_are_those_of_the_springs_and_of_friction(rubber):
     assert np.abs(shares.sum(axis=1) - 1).max() < 1e-9
 
 
-# ---- the microscope and the patch of contact
-
-DIAGRAM = """(times, ways) => times.map((time, i) => {
-  diagram.show(impact, models.at(impact.contact, time), ways[i], true);
+MICROSCOPE = """(times) => times.map((time) => {
+  diagram.show(impact, models.at(impact.contact, time), time, true);
   const part = (name) => drawn[`diagram-${name}`];
   const places = ["body", "particle", "origin"].map((name) => part(name).transform);
   return [...places, ...["friction-force", "normal-force", "velocity"].map((name) => part(name).d)];
@@ -243,126 +253,59 @@ def arrow(outline):
     return corners[3] - (corners[0] + corners[-1]) / 2 if len(corners) else np.zeros(2)
 
 
-def test_the_microscope_shows_directions_and_lengths(rubber):
+def test_the_closer_look_shows_the_contact_in_time(rubber):
     e, found, evaluate = rubber
+    for chart, style in (("forces", "normal"), ("forces", "friction"), ("velocity", "velocity")):
+        time, values = curve(evaluate(f"({CHART})('{chart}', impact)"), style)
+        assert_near(values, np.interp(time, found.time, getattr(found, style)))
+    starts = [event.time for event in found.events if event.kind in ("stick", "slip")]
+    phases = evaluate("impact.phases.map((one) => [one.start, one.sticks ? 0 : one.side])")
+    assert np.abs(np.array(phases)[:, 0] - starts).max() < 1e-9
+    assert [side for _, side in phases] == [1, 0, 1 if e == 0.3 else -1]
+    # The microscope: in the picture, x runs to the right, y down.
     chosen = slice(100, -100, 250)
     t, normal, friction = found.time[chosen], found.normal[chosen], found.friction[chosen]
-    way = so_far(found, found.velocity)[chosen]
-    rows = evaluate(f"({DIAGRAM})({t.tolist()}, {way.tolist()})")
+    rows = evaluate(f"({MICROSCOPE})({t.tolist()})")
     moved = [[re.findall(r"-?[\d.]+", one) for one in row[:3]] for row in rows]
     body, particle, origin = np.array(moved, float).transpose(1, 0, 2)
     rubs, presses, velocity = np.transpose([list(map(arrow, row[3:])) for row in rows], (1, 0, 2))
-    # In the picture, x runs to the right, y down.
     assert_drawn(body[:, 0] - particle[:, 0], found.spring[chosen])
-    assert_drawn(body[:, 0] - origin[:, 0], way)
+    assert_drawn(body[:, 0] - origin[:, 0], t)
     back = t > 1
-    depth = np.where(back, 1 - e**2 * (1 - normal), normal)
-    assert_drawn(body[:, 1] - 170, depth)
+    assert_drawn(body[:, 1] - 170, np.where(back, 1 - e**2 * (1 - normal), normal))
     assert_drawn(-rubs[:, 0], friction, missing=3)
     assert_drawn(-presses[:, 1], normal, missing=3)
     approach = np.cos(math.pi / 2 * np.where(back, 1 + (t - 1) / e, t)) * np.where(back, e, 1)
     assert_drawn(velocity, np.stack([FRICTION * found.velocity[chosen], approach], axis=1))
 
 
-PATCH = """(style, impact, time) => {
-  const row = models.at(impact.contact, time);
-  const motion = style === "lumped" ? null : continuum.normal(impact.e, style);
-  const zones = patch.show(style, row, 1, motion);
-  return [zones.map(({ slip, outer }) => [slip, outer]), patch.words(zones)];
-}"""
+# ---- what is said
 
 
-def patch_at(scripts, style, x, time):
-    """Zones of the patch, from outside, as [slip, radius]; and its words."""
-    return scripts.evaluate(f"({PATCH})('{style}', {impact(style, x, 1.0)}, {time})")
-
-
-@pytest.mark.parametrize("time", [1.2, 1.4, 1.6])
-def test_the_middle_sticks_and_the_edge_slips(time, scripts):
-    x = math.tan(math.radians(15)) / 0.4
-    theirs = continuum.history(x, *SOLID)
-    stick, radius = (
-        np.interp(time, theirs.time, column)
-        for column in (theirs.stick_radius, theirs.contact_radius)
-    )
-    (edge, middle), words = patch_at(scripts, "elastic", x, time)
-    assert words == "middle sticks, edge slips"
-    assert edge[0] != 0 and middle[0] == 0
-    assert abs(edge[1] - radius) < 0.05 and abs(middle[1] - stick) < 0.05
-    # The lumped model has one point.
-    zones, words = patch_at(scripts, "lumped", x, time)
-    assert len(zones) == 1 and words == f"all of it {'slips' if zones[0][0] else 'sticks'}"
-
-
-@pytest.mark.parametrize(("e", "style"), [(1, "elastic"), (0.6, "viscous"), (0.6, "plastic")])
-def test_the_stress_over_the_patch_is_the_friction(e, style, scripts):
-    """Friction is 2 pi times the integral of r times stress: Abel's transform keeps it."""
-    private = node.expression("patch", "return { show,", "return { stress, show,")
-    x = math.tan(math.radians(30)) / 0.4
-    total = (
-        f"(() => {{ const {{ stress }} = {private}, {{ contact, e }} = {impact(style, x, e)};"
-        " const motion = continuum.normal(e, contact.style);"
-        " return [0.3, 0.7, 1, 1.2, 1.5].map((time) => { const row = models.at(contact, time);"
-        " const edge = Math.sqrt(row.limit.square), n = 1000;"
-        " const radii = Array.from({ length: n }, (_, i) => ((i + 0.5) / n) * edge);"
-        " const values = stress(row.density, motion.radius / motion.springs, edge, radii, 1);"
-        " const sum = radii.reduce((sum, r, i) => sum + r * values[i], 0) * edge / n;"
-        " return [2 * sum / motion.largest, row.friction]; }); })()"
-    )
-    ours, friction = np.transpose(scripts.evaluate(total))
-    assert np.abs(friction).max() > 0.3
-    assert np.abs(ours - friction).max() < 0.03 * np.abs(friction).max()
-
-
-# ---- in words
-
-
-def outcomes(scripts, x, e):
-    """What the page says about the models, and what the package solves, in the same order."""
+def test_it_says_which_models_answer_and_disagree(scripts):
     said = "models.outcomes(models.chosen(impact, models.TOGGLES), impact)"
-    found = f"((impact) => {{ const all = {said}; return [all, words.agreement(all).text]; }})"
-    ours, text = scripts.evaluate(f"{found}({impact('lumped', x, e)})")
-    return ours, text, [packaged(one["style"], x, *SOLID, e) for one in ours]
-
-
-def test_it_says_which_models_disagree(scripts):
-    # Below e = 1 small incidences turn round in some models.
-    ours, text, theirs = outcomes(scripts, 1.0, 0.8)
-    assert [np.sign(one.velocity) for one in theirs] == [-1, 0, -1, 1]
-    assert text == (
-        "The models disagree on the direction. Forwards: continuum, plastic. Backwards: the paper’s"
-        " lumped model; continuum, viscous. The rigid limit has no spring: it only stops."
-    )
-    for one, package in zip(ours, theirs, strict=True):
-        error = 1e-9 if one["style"] in ("lumped", "rigid") else write_explorer.CONTINUUM_ERROR
-        for name in ("velocity", "peak_friction", "dissipation"):
-            assert abs(one[name] - getattr(package, name)) < error, (one["style"], name)
-    # x = 4 is above the limit of slip throughout for the lumped model, and below that of continua.
-    _, text, (paper, _, *continua) = outcomes(scripts, 4.0, 0.5)
-    assert paper.regime == Regime.SLIP_THROUGHOUT
-    assert all(one.velocity < 0 and one.regime != paper.regime for one in continua)
-    assert text.startswith(
-        "The models disagree on slip. Slips throughout: the paper’s lumped model. Also sticks:"
-        " continuum, viscous; continuum, plastic."
-    )
-    # Almost nothing is what the continuum of the page cannot tell from nothing.
-    _, text, (_, _, grips) = outcomes(scripts, 1.0, 1.0)
-    assert 0 < abs(grips.velocity) < write_explorer.CONTINUUM_ERROR
-    assert "Stops, or almost: continuum, elastic." in text
-    # The continuum answers from 0.1 on.
-    answering = scripts.map("(e) => models.chosen({ e }, ['continuum']).length", [0.099, 0.1])
-    assert answering == [0, 2]
-
-
-def test_it_says_what_happens(scripts):
-    for style, x, e, said in (
-        ("lumped", 0, 1, "comes straight"),
-        ("lumped", 56.7, 1, "slips forwards throughout"),
-        ("lumped", 0.7, 0, "sticks throughout. The contact point does not bounce off"),
-        ("elastic", 2.47, 1, "slips forwards first, then sticks in the middle, then slips back"),
-        ("elastic", 2.47, 1, "The contact point leaves backwards, with"),
+    found = f"((impact) => {{ const all = {said}; return [all, words.agreement(all)]; }})"
+    for x, e, directions, words in (
+        # Below e = 1 small incidences turn round in some models; the rigid limit only stops.
+        (1.0, 0.8, [-1, 0, -1, 1], "disagree on the direction"),
+        # Above the limit of slip throughout of the lumped model, and below that of continua.
+        (4.0, 0.5, [-1, 0, -1, -1], "disagree on slip"),
+        # Almost nothing is what the continuum of the page cannot tell from nothing.
+        (1.0, 1.0, [1, 0, 0], "disagree on the direction"),
+        (10.0, 1.0, [1, 1, 1], "agree on the direction"),
     ):
-        assert said in scripts.evaluate(f"words.sentence({impact(style, x, e)})")
+        ours, agreement = scripts.evaluate(f"{found}({impact('lumped', x, e)})")
+        assert [one["direction"] for one in ours] == directions
+        assert words in agreement["text"] and agreement["agrees"] == (x == 10)
+        assert [one["style"] for one in ours if one["mute"]] == ["rigid"] * (directions[1] == 0)
+        for one in ours:
+            theirs = packaged(one["style"], x, *SOLID, e)
+            error = 1e-9 if one["style"] in ("lumped", "rigid") else write_explorer.CONTINUUM_ERROR
+            for name in ("velocity", "peak_friction", "dissipation"):
+                assert abs(one[name] - getattr(theirs, name)) < error, (one["style"], name)
+    # The continuum answers from 0.1 on.
+    answering = scripts.map("(e) => models.chosen({ e }, ['continuum']).length", [0.099, 0.1, 1])
+    assert answering == [0, 2, 1]
 
 
 def test_numbers_in_words_are_those_of_the_package():

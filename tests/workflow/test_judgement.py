@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from stronge1994 import csv_tables, plan, reference_data
-from stronge1994.ledger import entries as ledger_entries
+from stronge1994 import csv_tables
 from stronge1994.ledger import outcome
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
@@ -37,19 +36,6 @@ def test_every_file_of_a_run_is_asked_for(first_run):
     ]
     made = {str(path) for path in files if not {str(p) for p in path.parents} & wrote}
     assert made - wrote == {"results/PASSED", "figures/README.md"}
-
-
-@pytest.fixture(scope="module")
-def expected():
-    """Rows that the tables of a run must have."""
-    config = configuration.load(ROOT)
-    schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
-    sources = reference_data.load_all(ROOT / "data", schema)
-    schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
-    entries = ledger_entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
-    plans = [plan.plan_of_judgement(config, sources, name) for name in configuration.judged(config)]
-    rows = {title: waits for own in plans for title, waits in own["rows"].items()}
-    return rows, {name: ledger_entries.is_run(entry) for name, entry in entries.items()}
 
 
 # What is cut, emptied, restored, of another figure or run; and what a job has read.
@@ -105,50 +91,48 @@ def test_the_report_must_show_every_row_and_have_no_problems(tmp_path, monkeypat
     assert found == ["figures/report.html: it does not show a-b", "report: fig5: oh"]
 
 
-def good_rows(expected):
-    """Rows of both tables in which nothing fails."""
-    words = {True: "awaited", False: "agrees"}
-    blank = dict.fromkeys(verdict_table.COLUMNS, "")
-    verdicts = [
-        blank | {"comparison": name, "verdict": words[a]} for name, a in expected[0].items()
-    ]
-    words = {True: "yes", False: ""}
-    return verdicts, [{"entry": name, "holds": words[c]} for name, c in expected[1].items()]
-
-
-CHANGED_ROWS = [
-    (("verdict", "wrong"), "wrong: fig6-rebound: "),
-    (("verdict", "diverges"), "diverges: fig6-rebound: "),
-    (("verdict", "agree"), "fig6-rebound = 'agree' cannot be"),
-    (("verdict", "awaited"), "fig6-rebound = 'awaited' cannot be"),
-    (("comparison", "fig6-other"), "0 rows of fig6-rebound where 1 belongs"),
-    (("comparison", "fig6-printed"), "2 rows of fig6-printed where 1 belongs"),
+COMPARISONS = {"fig6-rebound": False, "fig6-printed": False, "fig8-measured": True}
+ENTRIES = {"eq-41": True, "section-2": False}
+CHANGED_CELLS = [
+    ("fig6-rebound", {"verdict": "wrong"}, "wrong: fig6-rebound: "),
+    ("fig6-rebound", {"verdict": "diverges"}, "diverges: fig6-rebound: "),
+    ("fig6-rebound", {"verdict": "agree"}, "fig6-rebound = 'agree' cannot be"),
+    ("fig6-rebound", {"verdict": "awaited"}, "fig6-rebound = 'awaited' cannot be"),
+    ("fig8-measured", {"verdict": "agrees"}, "fig8-measured = 'agrees' cannot be"),
+    ("fig6-rebound", {"comparison": "fig6-other"}, "0 rows of fig6-rebound where 1 belongs"),
+    ("fig6-rebound", {"comparison": "fig6-printed"}, "2 rows of fig6-printed where 1 belongs"),
+    ("eq-41", {"holds": "no", "problem": "oh"}, "no longer holds: eq-41: oh"),
+    ("eq-41", {"holds": ""}, "eq-41, holds = '' cannot be"),
+    ("eq-41", {"holds": "YES"}, "eq-41, holds = 'YES' cannot be"),
+    ("eq-41", {"holds": None}, "eq-41, holds = None cannot be"),
+    ("section-2", {"holds": "yes"}, "section-2, holds = 'yes' cannot be"),
+    ("section-2", {"entry": "section-3"}, "0 rows of section-2 where 1 belongs"),
 ]
 
 
-@pytest.mark.parametrize(("change", "words"), CHANGED_ROWS, ids=[w for _, w in CHANGED_ROWS])
-def test_rows_that_cannot_be_do_not_pass(expected, change, words):
-    verdicts, ledger = good_rows(expected)
-    assert gate.faults_of_tables(verdicts, ledger, *expected) == []
-    row = next(row for row in verdicts if row["comparison"] == "fig6-rebound")
-    row[change[0]] = change[1]
-    assert any(words in f for f in gate.faults_of_tables(verdicts, ledger, *expected))
+@pytest.mark.parametrize(("name", "change", "words"), CHANGED_CELLS)
+def test_rows_that_cannot_be_do_not_pass(name, change, words):
+    blank = dict.fromkeys(verdict_table.COLUMNS, "")
+    verdicts = {
+        name: blank | {"comparison": name, "verdict": "awaited" if waits else "agrees"}
+        for name, waits in COMPARISONS.items()
+    }
+    ledger = {name: {"entry": name, "holds": "yes" * is_run} for name, is_run in ENTRIES.items()}
 
+    def faults():
+        rows = list(verdicts.values()), list(ledger.values())
+        return gate.faults_of_tables(*rows, COMPARISONS, ENTRIES)
 
-@pytest.mark.parametrize("holds", ["no", "", "YES", None])
-def test_entries_that_do_not_hold_do_not_pass(expected, holds):
-    verdicts, ledger = good_rows(expected)
-    row = next(row for row in ledger if row["entry"] == "eq-41")
-    row["holds"] = holds
-    found = gate.faults_of_tables(verdicts, ledger, *expected)
-    assert len(found) == 1 and "eq-41" in found[0]
+    assert faults() == []
+    (verdicts if name in verdicts else ledger)[name].update(change)
+    assert any(words in fault for fault in faults())
 
 
 TABLES = ("verdicts", "ledger", "which_model", "key_numbers")
 
 
 @pytest.fixture
-def report(first_run, expected, inventory, tmp_path, monkeypatch):
+def report(first_run, inventory, tmp_path, monkeypatch):
     """Write the report of a finished run from a copy of its tables; page and problems."""
     for folder in ("results", "figures"):
         shutil.copytree(first_run[0] / folder, tmp_path / folder)
@@ -164,13 +148,13 @@ def report(first_run, expected, inventory, tmp_path, monkeypatch):
     )
     config = configuration.load(ROOT) | {"slides": []}
     names = list(config["figures"])
-    comparisons, entries = expected
+    verdicts, ledger = (csv_tables.read_rows(path) for path in gate.TABLES)
     settings = {
         "captions": dict.fromkeys(names, "A caption."),
         "config": config,
         "sources": {"cornell1999": inventory["cornell1999"]},
-        "comparisons": comparisons,
-        "entries": entries,
+        "comparisons": {row["comparison"]: row["verdict"] == "awaited" for row in verdicts},
+        "entries": {row["entry"]: bool(row["holds"]) for row in ledger},
     }
 
     def written():

@@ -7,8 +7,8 @@ fails without a fault is what the run itself says.
 import importlib
 import inspect
 import re
-from collections import Counter
 from fnmatch import fnmatchcase
+from pkgutil import resolve_name
 
 import numpy as np
 import pytest
@@ -38,44 +38,37 @@ JUDGED = {
     "entries": [name for name, entry in LEDGER.items() if "check" in entry],
     "in nature": [name for name, claim in CLAIMS.items() if "check" in claim],
 }
-MANY = 4000  # rows; of more, every fortieth is enough
-READ = {}  # series of reference, which each comparison reads again
 
 
 def noticed_by(fault, kind):
-    """Names of what must notice a fault, by the patterns of the table."""
-    names = {}
-    for pattern in fault.get(kind, []):
-        fitting = [name for name in JUDGED[kind] if fnmatchcase(name, pattern.removeprefix("!"))]
-        assert fitting, f"{pattern}: no such row"
-        if pattern.startswith("!"):
-            names = {name: None for name in names if name not in fitting}
-        else:
-            names |= dict.fromkeys(fitting)
-    return list(names)
+    """Names of what must notice a fault: of the patterns that fit, the last one decides."""
+    decides = {
+        name: pattern
+        for pattern in fault.get(kind, [])
+        for name in JUDGED[kind]
+        if fnmatchcase(name, pattern.removeprefix("!"))
+    }
+    return [name for name, pattern in decides.items() if not pattern.startswith("!")]
 
 
-def by_figure(fault):
-    """Comparisons that must notice a fault, by the figure or scene whose table they judge."""
-    found = {}
+# Faults with the figure, or scene, whose table is judged, and the rows of it that must notice.
+OF_FIGURES = {}
+for words, fault in FAULTS.items():
     for name in noticed_by(fault, "comparisons"):
-        found.setdefault(CONFIG["comparisons"][name]["figure"], []).append(name)
-    return found
+        figure = CONFIG["comparisons"][name]["figure"]
+        OF_FIGURES.setdefault(f"{words}: {figure}", (fault, figure, set()))[2].add(name)
+SOLVED = {figure for fault, figure, _ in OF_FIGURES.values() if "columns" not in fault}
 
 
 def test_every_row_of_a_run_notices_a_fault(inventory):
     """What is awaited has no points yet; test_awaited_series.py makes some up."""
+    plans = [
+        plan.plan_of_judgement(CONFIG, inventory, name) for name in configuration.judged(CONFIG)
+    ]
+    awaited = {name for own in plans for name, waits in own["rows"].items() if waits}
     for kind, names in JUDGED.items():
         noticed = {name for fault in FAULTS.values() for name in noticed_by(fault, kind)}
-        left = set(names) - noticed
-        if kind == "comparisons":
-            left = {name for name in left if not _is_awaited(name, inventory)}
-        assert not left, kind
-
-
-def _is_awaited(name, inventory):
-    figure = CONFIG["comparisons"][name]["figure"]
-    return plan.plan_of_judgement(CONFIG, inventory, figure)["rows"][name]
+        assert set(names) - noticed <= awaited, kind
 
 
 def changed(expression, value, given):
@@ -85,18 +78,13 @@ def changed(expression, value, given):
     return eval(str(expression), {"np": np, "value": value, **names})
 
 
-def found_by(name):
-    """Module, and name in it, of a full name."""
-    module, _, attribute = name.rpartition(".")
-    return importlib.import_module(module), attribute
-
-
-def wrong_of(function, change):
+def wrong_of(name, change):
     """A function with arguments, fields of its result (or it all, `result`) changed.
 
     With `instead` another function is asked, which takes what was given by position.
     """
-    instead = getattr(*found_by(change["instead"])) if "instead" in change else None
+    function, instead = resolve_name(name), change.get("instead")
+    asked = resolve_name(instead or name)
     signature = inspect.signature(function)
     of_arguments = change.keys() & signature.parameters.keys()
     of_fields = change.keys() - of_arguments - {"instead", "result"}
@@ -105,9 +93,9 @@ def wrong_of(function, change):
         given = signature.bind(*args, **kwargs)
         given.apply_defaults()
         right = dict(given.arguments)
-        for name in of_arguments:
-            given.arguments[name] = changed(change[name], right[name], right)
-        found = instead(*args) if instead else function(*given.args, **given.kwargs)
+        for argument in of_arguments:
+            given.arguments[argument] = changed(change[argument], right[argument], right)
+        found = asked(*args) if instead else asked(*given.args, **given.kwargs)
         if "result" in change:
             return changed(change["result"], found, right)
         if of_fields and hasattr(found, "events"):
@@ -116,22 +104,18 @@ def wrong_of(function, change):
         return with_fields(found, right)
 
     def with_fields(found, given):
-        if not of_fields:
-            return found
-        own = [name for name in of_fields if name in found._fields]
-        return found._replace(**{n: changed(change[n], getattr(found, n), given) for n in own})
+        own = of_fields & set(getattr(found, "_fields", ()))
+        new = {field: changed(change[field], getattr(found, field), given) for field in own}
+        return found._replace(**new) if new else found
 
     return wrong
 
 
 def plant(fault, patch):
     """Put the wrong functions of a fault in place of the right ones."""
-    wrong = {
-        found_by(name): wrong_of(getattr(*found_by(name)), change)
-        for name, change in fault.get("solver", {}).items()
-    }
-    for (module, attribute), function in wrong.items():
-        patch.setattr(module, attribute, function)
+    wrong = {name: wrong_of(name, change) for name, change in fault.get("solver", {}).items()}
+    for name, function in wrong.items():
+        patch.setattr(name, function)
 
 
 def wrong_settings(settings, changes):
@@ -146,24 +130,16 @@ def wrong_settings(settings, changes):
 
 
 def wrong_columns(curves, changes):
-    """Curves whose columns are changed by the first pattern that fits."""
+    """Curves whose columns of numbers are changed by the first pattern that fits."""
 
     def wrong(where, values):
         fitting = [new for pattern, new in changes.items() if fnmatchcase(where, pattern)]
-        is_number = values.dtype.kind == "f"
-        return changed(fitting[0], values, {}) if fitting and is_number else values
+        return changed(fitting[0], values, {}) if fitting and values.dtype.kind == "f" else values
 
     return {
         curve: {column: wrong(f"{curve}: {column}", values) for column, values in own.items()}
         for curve, own in curves.items()
     }
-
-
-def thin(columns):
-    """Every fortieth row of a very long table: the impacts of `stability`, and their reference."""
-    if len(next(iter(columns.values()), ())) > MANY:
-        columns |= {name: values[::40] for name, values in columns.items()}
-    return columns
 
 
 @pytest.fixture(scope="module")
@@ -174,7 +150,6 @@ def table_of(first_run):
     def table(name):
         if name not in read:
             read[name] = judging_rows.read(first_run[0] / configuration.table_of(name))
-            thin(read[name].get("impacts", {}))
         return read[name]
 
     return table
@@ -182,14 +157,10 @@ def table_of(first_run):
 
 @pytest.fixture
 def judged(inventory, monkeypatch):
-    """The rows of some comparisons of a figure that fail with these curves."""
+    """The comparisons of a figure, of these names, that fail with these curves.
 
-    def read_once(series, arrays=reference_data.arrays):
-        if series["path"] not in READ:
-            READ[series["path"]] = thin(arrays(series))
-        return dict(READ[series["path"]])
-
-    monkeypatch.setattr(reference_data, "arrays", read_once)
+    One that has measured nothing has not noticed a fault.
+    """
 
     def failing(figure, names, curves):
         monkeypatch.setattr(judging_rows, "read", lambda _: curves)
@@ -197,63 +168,47 @@ def judged(inventory, monkeypatch):
         references = plan.references(CONFIG, inventory, figure)
         with np.errstate(over="ignore"):  # distances of the largest numbers of `stability`
             rows = compare(figure, entries, references, "", CONFIG["significance"])
-        return {row["comparison"]: row for row in rows if row["verdict"] in FAILS}
+        return {row["comparison"] for row in rows if row["verdict"] in FAILS and row["points"]}
 
     return failing
 
 
-def points_of(figure, inventory):
-    """Settings with the points of reference of a figure; only some of those of a long table."""
-    settings = solving.read_nodes(plan.nodes_of(CONFIG, inventory, figure))
-    thin(settings.get("points", {}))
-    return settings
-
-
-def solved_anew(figure, fault, right, inventory):
-    """The curves of a figure with wrong settings, or by a wrong solver: with few samples.
-
-    Continua take long, and stay as the run made them. So do the printed equations, and curves
-    off by one sigma.
-    """
-    settings = plan.settings(CONFIG, inventory, figure) | points_of(figure, inventory)
-    less = {"as_printed": False, "samples": TABLE["samples"].get(figure)}
-    settings |= {key: new for key, new in less.items() if key in settings and new is not None}
-    settings.pop("uncertainty", None)
-    module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
-    found = module.curves(**wrong_settings(settings, fault.get("settings", {})))
-    kept = curve_names.AS_PRINTED, " 1 sigma"
-    own = [name for name in right if not any(word in name for word in kept)]
-    wrong = dict(zip(own, found.values(), strict=True))
-    return right | {n: curve for n, curve in wrong.items() if not n.startswith("continuum")}
+def settings_of(figure, inventory):
+    """Settings of a figure with its points of reference, and with few samples."""
+    settings = plan.settings(CONFIG, inventory, figure)
+    settings |= solving.read_nodes(plan.nodes_of(CONFIG, inventory, figure))
+    return (
+        settings | {"samples": TABLE["samples"][figure]} if figure in TABLE["samples"] else settings
+    )
 
 
 @pytest.fixture
 def solved(table_of, inventory, monkeypatch):
-    """The curves of a figure with a fault, without the continua, which are not looked at."""
+    """The curves of a figure with wrong settings, or by a wrong solver.
+
+    Continua take long, and stay as the run made them. So do the printed equations, and curves
+    off by one sigma.
+    """
     rebound = beside.rebound
 
-    def quick(model, tolerance, *groups):
-        model = "lumped.hysteretic" if model.startswith("continuum") else model
-        return rebound(model, tolerance, *groups)
-
-    def elastic(*groups, **_):
-        return lumped.rebound(*groups)
+    def quick(model, *more):
+        return rebound("lumped.hysteretic" if model.startswith("continuum") else model, *more)
 
     def curves(figure, fault):
         monkeypatch.setattr(beside, "rebound", quick)
-        monkeypatch.setattr(continuum, "rebound", elastic)
+        monkeypatch.setattr(continuum, "rebound", lambda *groups, **_: lumped.rebound(*groups))
         plant(fault, monkeypatch)
-        return solved_anew(figure, fault, table_of(figure), inventory)
+        settings = settings_of(figure, inventory)
+        settings.pop("uncertainty", None)
+        settings |= {"as_printed": False} if "as_printed" in settings else {}
+        module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
+        found = module.curves(**wrong_settings(settings, fault.get("settings", {})))
+        right = table_of(figure)
+        own = [name for name in right if not (curve_names.AS_PRINTED in name or " 1 sigma" in name)]
+        wrong = dict(zip(own, found.values(), strict=True))
+        return right | {name: wrong[name] for name in own if not name.startswith("continuum")}
 
     return curves
-
-
-OF_FIGURES = {
-    f"{words}: {figure}": (fault, figure, names)
-    for words, fault in FAULTS.items()
-    for figure, names in by_figure(fault).items()
-}
-SOLVED = {figure for fault, figure, _ in OF_FIGURES.values() if "columns" not in fault}
 
 
 @pytest.mark.parametrize("figure", sorted(SOLVED))
@@ -268,106 +223,59 @@ def test_comparisons_notice(fault, figure, names, table_of, solved, judged):
         curves = wrong_columns(table_of(figure), fault["columns"])
     else:
         curves = solved(figure, fault)
-    rows = judged(figure, names, curves)
-    # One that has measured nothing has not noticed this fault.
-    assert {name for name, row in rows.items() if row["points"]} == set(names)
-
-
-OF_LEDGER = [words for words, fault in FAULTS.items() if "entries" in fault]
-IN_NATURE = [words for words, fault in FAULTS.items() if "in nature" in fault]
+    assert judged(figure, names, curves) == names
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("words", OF_LEDGER)
+@pytest.mark.parametrize("words", [words for words, fault in FAULTS.items() if "entries" in fault])
 def test_entries_of_the_ledger_notice(words, monkeypatch):
     names = noticed_by(FAULTS[words], "entries")
     asked = {name: {k: v for k, v in LEDGER[name].items() if k != "in_nature"} for name in names}
     plant(FAULTS[words], monkeypatch)
     with np.errstate(all="ignore"):
-        rows = checking.check(asked)
+        rows = [row for row in checking.check(asked) if row["holds"] == "no"]
     # A check that only crashes with a fault has not compared anything.
-    noticed = {
-        row["entry"] for row in rows if row["holds"] == "no" and row["found"] not in ("", "nan")
-    }
-    assert noticed == set(names)
+    assert {row["entry"] for row in rows if row["found"] not in ("", "nan")} == set(names)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("words", IN_NATURE)
+@pytest.mark.parametrize(
+    "words", [words for words, fault in FAULTS.items() if "in nature" in fault]
+)
 def test_claims_in_nature_notice(words, monkeypatch):
     names = noticed_by(FAULTS[words], "in nature")
     plant(FAULTS[words], monkeypatch)
     measured = checking.measure({name: {"in_nature": CLAIMS[name]} for name in names})
-    noticed = {name for name in names if checking.judge(CLAIMS[name], measured)}
-    assert noticed == set(names)
+    assert [name for name in names if checking.judge(CLAIMS[name], measured)] == names
 
 
 def held(name, curves):
     """Curves and columns of numbers, not all 0, that something independent can hold."""
+    free = [entry["columns"] for entry in TABLE["not_held"]]
+    if name.startswith(curve_names.SCENE):  # copies of what the scene was given
+        table = ROOT / f"data/scenes/{name.removeprefix(curve_names.SCENE)}.csv"
+        given = ["row [1]", *table.read_text(encoding="utf-8").splitlines()[0].split(",")]
+        free += [f".*: {re.escape(column)}" for column in given]
     for curve, columns in curves.items():
         for column, values in columns.items():
-            where = f"{name}: {curve}: {column}"
             # Curves off by a sigma only say how uncertain another one is.
-            free = "1 sigma" in curve or column in inputs(name)
-            free |= any(re.fullmatch(entry["columns"], where) for entry in TABLE["not_held"])
-            if values.dtype.kind == "f" and values.any() and not free:
+            is_free = "1 sigma" in curve or any(
+                re.fullmatch(pattern, f"{name}: {curve}: {column}") for pattern in free
+            )
+            if values.dtype.kind == "f" and values.any() and not is_free:
                 yield curve, column
-
-
-def inputs(name):
-    """Columns that are copies of what a scene was given."""
-    if not name.startswith(curve_names.SCENE):
-        return set()
-    table = ROOT / f"data/scenes/{name.removeprefix(curve_names.SCENE)}.csv"
-    return {"row [1]", *table.read_text(encoding="utf-8").splitlines()[0].split(",")}
-
-
-def looks_at(entry, references, curve, column):
-    """Whether a comparison looks at a column of a curve."""
-    named = entry.get("columns") or [entry.get("landmark", {}).get(axis) for axis in "xy"]
-    if "reference" in entry and "landmark" not in entry:
-        series = references[entry["reference"]]
-        axes = series["x"], *reference_data.ordinates(series)
-        named = [reference_data.column_name(axis) for axis in axes]
-    return entry.get("curve", curve) == curve and column in named
-
-
-def at_nodes(curves, figure, inventory):
-    """Curves at the points of reference alone: all that is needed to judge their vertices."""
-    nodes = solving.read_nodes(plan.nodes_of(CONFIG, inventory, figure)).get("nodes", {})
-    short = dict(curves)
-    for curve, columns in curves.items():
-        for column, values in columns.items():
-            kept = np.isin(values, nodes.get(column.split(" [")[0], ()))
-            if kept.any():
-                short[curve] = {name: own[kept] for name, own in columns.items()}
-    return short
 
 
 @pytest.mark.parametrize("name", configuration.judged(CONFIG))
 @pytest.mark.parametrize("factor", [1.3, pytest.param(-1.0, marks=pytest.mark.long)])
-def test_no_column_can_be_scaled_or_flipped(name, factor, table_of, judged, inventory):
-    missed, caught = [], Counter()
-    whole, entries = table_of(name), plan.comparisons(CONFIG, name)
-    references = plan.references(CONFIG, inventory, name)
-    short = at_nodes(whole, name, inventory) if name in CONFIG["figures"] else whole
-    of_vertices = [title for title, entry in entries.items() if entry["metric"] == "vertices"]
-    assert not judged(name, of_vertices, short)
-    for curve, column in held(name, whole):
-        asked = [
-            (-caught[title], "curve" not in entry, title)
-            for title, entry in entries.items()
-            if looks_at(entry, references, curve, column)
-        ]
-        # The one that has seen most faults comes first.
-        for *_, title in sorted(asked):
-            right = short if title in of_vertices else whole
-            wrong = right | {curve: right[curve] | {column: factor * right[curve][column]}}
-            if any(row["points"] for row in judged(name, [title], wrong).values()):
-                caught[title] += 1
-                break
-        else:
-            missed.append((curve, column))
+def test_no_column_can_be_scaled_or_flipped(name, factor, table_of, judged):
+    right, titles, missed = table_of(name), list(plan.comparisons(CONFIG, name)), []
+    for curve, column in held(name, right):
+        wrong = right | {curve: right[curve] | {column: factor * right[curve][column]}}
+        noticed = next((title for title in titles if judged(name, [title], wrong)), None)
+        # The one that has noticed this fault is asked first about the next one.
+        titles.sort(key=lambda title, noticed=noticed: title != noticed)
+        missed += [] if noticed else [(curve, column)]
     assert missed == []
 
 
@@ -399,11 +307,10 @@ def test_a_wrong_repair_of_the_lumped_model_is_noticed(
 
     monkeypatch.setattr(inelastic, "MODELS", (model,))
     monkeypatch.setattr(models, "rebound", rebound)
-    settings = plan.settings(CONFIG, inventory, "inelastic") | points_of("inelastic", inventory)
-    wrong = table_of("inelastic") | inelastic.curves(**settings)
-    names = [f"inelastic-{n}" for n in (f"{model}-pairs", "pairs", "rebound")]
-    names.append("inelastic-tangential-restitution")
-    assert set(judged("inelastic", names, wrong)) == set(names)
+    wrong = table_of("inelastic") | inelastic.curves(**settings_of("inelastic", inventory))
+    names = {f"inelastic-{n}" for n in (f"{model}-pairs", "pairs", "rebound")}
+    names.add("inelastic-tangential-restitution")
+    assert judged("inelastic", names, wrong) == names
 
 
 def test_curves_that_are_not_finite_are_wrong(tmp_path):

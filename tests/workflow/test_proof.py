@@ -72,7 +72,7 @@ def test_a_run_that_is_stopped_or_killed_does_not_pass_and_goes_on(toy):
     (toy / "draw.within").write_text("wait")
     running = toy.start()
     running.wait_for((toy / "draw.reached").exists)
-    os.killpg(running.id, signal.SIGKILL)
+    os.killpg(running.process.pid, signal.SIGKILL)
     assert running.ended().returncode == -signal.SIGKILL
     (toy / "draw.within").unlink()
     locked = toy.run()
@@ -176,7 +176,7 @@ def test_a_run_that_is_asked_to_end_says_so(toy):
     (toy / "draw.within").write_text("wait")
     running = toy.start("-R", "draw")
     running.wait_for((toy / "draw.reached").exists)
-    os.kill(running.id, signal.SIGTERM)
+    os.kill(running.process.pid, signal.SIGTERM)
     running.wait_for(lambda: "Will exit" in running.words.read_text())
     (toy / "draw.within").unlink()
     found = running.ended()

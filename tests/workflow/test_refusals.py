@@ -5,16 +5,12 @@ starts show that it does.
 """
 
 import contextlib
-import gzip
 import re
-import shutil
 
 import numpy as np
-import pytest
 
-from stronge1994 import reference_data
 from stronge1994.plan import config as configuration
-from tests.workflow.project import ROOT, checked, config, ledger, schema, sources
+from tests.workflow.project import ROOT, checked, config, ledger, sources
 
 README = (ROOT / "workflow/README.md").read_text(encoding="utf-8")
 TROUBLE = README.split("## Troubleshooting")[1].split("\n## ")[0]
@@ -63,55 +59,6 @@ def test_a_bound_is_refused_before_it_says_nothing():
                 assert refused(name, "limit", limit) == (entry["metric"] != "small" or limit > 2)
 
 
-NO_TEXT = [
-    gzip.compress,
-    lambda table: table.decode().encode("utf-16"),
-    lambda table: b"\xff" + table,
-    lambda table: table[:100] + b"\xe9" + table[100:],
-]
-
-
-def test_a_scene_that_is_no_text_is_refused(tmp_path):
-    shutil.copytree(ROOT / "data/scenes", tmp_path / "data/scenes")
-    table = tmp_path / "data/scenes/superball.csv"
-    whole = table.read_bytes()
-    for change in NO_TEXT:
-        table.write_bytes(change(whole))
-        words = r"data/scenes/superball\.csv, line \d+: .*; save the file as UTF-8"
-        with pytest.raises(reference_data.SourceError, match=words):
-            checked({}, folder=tmp_path)
-
-
-# An edit of data/; what else a table and a source may hold: tests/unit/test_reference_data.py.
-BAD_DATA = [
-    ("kharaz2001/spin.csv", "69.96", "69.9O", "spin.csv, line "),
-    ("kharaz2001/spin.csv", None, None, "spin.csv: No such file"),
-    ("kharaz2001/source.yaml", "citation:", "quotation:", "source.yaml: top level: "),
-    ("johnson1983/rubber_sphere.CSV", None, "1,2\n", "rubber_sphere.CSV: no series of that name"),
-    ("johnson1983/rubber_sphere.csv.txt", None, "1,2\n", "csv.txt: no series of that name"),
-    ("johnson1983/a.json", None, "1,2\n", "a.json: no series of that name"),
-    ("points.csv", None, "1,2\n", "no source: allowed are folders"),
-    ("mine/source.yml", None, "x: 1\n", "no source: allowed are folders"),
-]
-
-
-@pytest.mark.parametrize(("path", "old", "new", "words"), BAD_DATA)
-def test_bad_data_is_refused(path, old, new, words, tmp_path):
-    for source in ("kharaz2001", "johnson1983"):
-        shutil.copytree(ROOT / "data" / source, tmp_path / source)
-    file = tmp_path / path
-    file.parent.mkdir(exist_ok=True)
-    text = file.read_text() if file.exists() else ""
-    assert old is None or old in text
-    if new is None:
-        file.unlink()
-    else:
-        file.write_text(text.replace(old, new) if old else new)
-    with pytest.raises(reference_data.SourceError, match=re.escape(words)) as refusal:
-        reference_data.load_all(tmp_path, schema("source"))
-    assert "\n" not in str(refusal.value)
-
-
 def explained(result):
     """The row of the README, under Troubleshooting, whose words a failed run has printed."""
     assert result.returncode != 0, result.stdout
@@ -127,7 +74,6 @@ STARTS = [
     (["--config", "stiffness_ratio=-1"], "stiffness_ratio: -1 is less than"),
     (["--config", "samples=0400"], "--config samples=0400: '0400' is no decimal number"),
     (["fgi6"], r"No rule to produce fgi6(.|\n)*Targets are\n  all, fig2, fig3, .*fig9,"),
-    ([], r"Missing input files for rule (.|\n)*page\.css"),
 ]
 
 
@@ -135,8 +81,6 @@ def test_a_refused_start_does_nothing_and_has_not_passed(fresh):
     for arguments, words in STARTS:
         (fresh / "results").mkdir(exist_ok=True)
         (fresh / "results/PASSED").write_text("passed")
-        if not arguments:
-            (fresh / "workflow/report/page.css").unlink()
         result = fresh.run(*arguments)
         assert result.returncode != 0 and re.search(words, result.stdout), result.stdout
         assert "Traceback" not in result.stdout

@@ -49,46 +49,32 @@ def _resolved(node):
     return node
 
 
-def _numbers(node, key):
-    """Both ends of what a number may be, and one between."""
+def _values(node, key=""):
+    """Of a number both ends of what it may be, and one between; of a list one and several numbers;
+    of a group each value of each setting, alone. Sources and tables are those of data/.
+    """
     node = _resolved(node)
-    if "enum" in node or node["type"] == "boolean":
-        return node.get("enum", [True, False])
-    whole = node["type"] == "integer"
-    step = node.get("multipleOf", 1) if whole else 1e-6
+    kind = "enum" if "enum" in node else node["type"]
+    if kind == "object":
+        settings = node["properties"].items()
+        return [{name: value} for name, part in settings for value in _values(part, name)]
+    if kind in ("enum", "boolean", "string"):
+        return {"enum": node.get("enum"), "boolean": [True, False], "string": []}[kind]
+    if "prefixItems" in node:
+        ends = [_values(part, key) for part in node["prefixItems"]]
+        return [list(pair) for pair in zip(*ends, strict=True)]
+    if kind == "array":
+        numbers = _values(node["items"], key)
+        fewest, most = node.get("minItems", 0), node.get("maxItems", 3)
+        if fewest == most == 2:
+            return [numbers[:2], numbers[-2:], [numbers[0], numbers[-1]]]
+        return [[n] for n in numbers if fewest <= 1] + [[]][fewest:] + [numbers[:most]]
+    step = node.get("multipleOf", 1) if kind == "integer" else 1e-6
     low = node.get("minimum", node.get("exclusiveMinimum", -UNLIMITED) + step)
     high = node.get("maximum", node.get("exclusiveMaximum", UNLIMITED) - step)
     high = min(high, LARGE.get(key, high))
     middle = math.sqrt(low * high) if low > 0 else (low + high) / 2
-    if whole:
-        low, middle = (math.ceil(number / step) * step for number in (low, middle))
-    return [low, middle, high]
-
-
-def _values(node, key):
-    """Values of a setting to be tried; lists of one and of several numbers."""
-    node = _resolved(node)
-    if node.get("type") != "array":
-        return _numbers(node, key)
-    if "prefixItems" in node:
-        ends = [_numbers(part, key) for part in node["prefixItems"]]
-        return [list(pair) for pair in zip(*ends, strict=True)]
-    numbers = _numbers(node["items"], key)
-    low, high = node.get("minItems", 0), node.get("maxItems", 3)
-    if low == high == 2:
-        return [numbers[:2], numbers[-2:], [numbers[0], numbers[-1]]]
-    return [*([n] for n in numbers if low <= 1), *([[]] if not low else []), numbers[:high]]
-
-
-def _cases(settings, path=()):
-    for key, node in settings.items():
-        kind = node.get("allowed")
-        if kind is None:
-            yield from _cases(node, (*path, key))
-        elif kind not in ("source", "table"):
-            allowed = {"$ref": f"#/$defs/{kind}"} if isinstance(kind, str) else kind
-            for value in _values(allowed, key):
-                yield (*path, key), value
+    return [low, math.ceil(middle / step) * step if kind == "integer" else middle, high]
 
 
 def _quick(group):
@@ -97,30 +83,24 @@ def _quick(group):
     return own | {key: _quick(value) for key, value in group.items() if isinstance(value, dict)}
 
 
-def _with(group, path, value):
-    key, *rest = path
-    return group | {key: _with(group[key], rest, value) if rest else value}
-
-
 def _tried():
     """Each figure with each value of the groups that it shares, and of its own settings."""
+    own = SCHEMA["properties"]["figures"]["properties"]
     for name, stated in figures.stated().items():
-        shared = [((key,), value) for key in stated.get("shared", []) for value in SHARED[key]]
-        for path, value in [*shared, *_cases(stated["settings"])]:
-            daily = name in DAILY and path[0] in SHARED
-            marks = () if daily else pytest.mark.long
-            yield pytest.param(name, path, value, id=f"{name}-{path}-{value}", marks=marks)
+        shared = [{key: value} for key in stated.get("shared", []) for value in SHARED[key]]
+        for change in [*shared, *({"figures": {name: change}} for change in _values(own[name]))]:
+            marks = () if name in DAILY and change in shared else pytest.mark.long
+            yield pytest.param(name, change, id=f"{name}-{change}", marks=marks)
 
 
-@pytest.mark.parametrize(("name", "path", "value"), list(_tried()))
+@pytest.mark.parametrize(("name", "change"), list(_tried()))
 def test_a_setting_that_is_allowed_is_drawn_and_judged(
-    name, path, value, inventory, tmp_path, monkeypatch
+    name, change, inventory, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(ROOT)
     whole = reference_data.load_yaml(configuration.FILE)  # as a user has it, short
-    own = _with(_quick(figures.values(figures.stated()[name]["settings"])), path, value)
-    change = {path[0]: own.pop(path[0])} if path[0] in SHARED else {}
-    config = configuration.complete(whole | change | {"figures": {name: own}})
+    quick = {"figures": {name: _quick(figures.values(figures.stated()[name]["settings"]))}}
+    config = configuration.overridden(configuration.complete(whole | quick), change)
     configuration.check_config(config, inventory, ledger())
     planned = plan.plan_of_figure(config, inventory, name)
     judged = plan.plan_of_judgement(config, inventory, name)["settings"]

@@ -2,7 +2,6 @@
 
 import os
 import re
-import shlex
 import subprocess
 import sys
 
@@ -30,15 +29,10 @@ def typed(fresh, tmp_path_factory):
     """The copy after all was typed, and pairs of what was said and what was printed."""
     home = tmp_path_factory.mktemp("home")
     (home / "marble").mkdir()
-    for name, command in (("bin/python", "python"), (".venv/bin/snakemake", "python -m snakemake")):
-        program = (fresh / name) if name.startswith(".") else home / name
-        program.parent.mkdir(parents=True)
-        program.write_text(
-            f'#!/bin/sh\nexec {command.replace("python", shlex.quote(sys.executable))} "$@"\n'
-        )
-        program.chmod(0o755)
+    (fresh / ".venv").symlink_to(sys.prefix)
     folder, printed, pairs = home / "marble", "", []
-    environment = os.environ | {"HOME": str(home), "PATH": f"{home}/bin:{os.environ['PATH']}"}
+    path = f"{fresh / '.venv/bin'}:{os.environ['PATH']}"
+    environment = os.environ | {"HOME": str(home), "PATH": path}
     for kind, content, words in blocks():
         folder = fresh.folder if "## 2. Your data" in words else folder
         paths = re.findall(r"`(~?[\w/]+/\w+\.\w+)`", words)
