@@ -79,15 +79,16 @@ def vertex_residuals(
     """
     x, y = (np.asarray(axis, float) for axis in points[:2])
     vertex_x, vertex_y = (np.asarray(axis, float) for axis in vertices[:2])
-    of_label: dict[Any, list[int]] = {}
+    at: dict[Any, list[int]] = {}
     for index, label in enumerate(vertices[2]):
-        of_label.setdefault(label, []).append(index)
+        at.setdefault(label, []).append(index)
+    of_label = {label: (vertex_x[indices], vertex_y[indices]) for label, indices in at.items()}
     sigmas, above = np.empty(len(x)), np.empty(len(x))
     sigma_x, sigma_y = (np.broadcast_to(np.asarray(axis, float), x.shape) for axis in sigma)
     for i, label in enumerate(points[2]):
         if label not in of_label:
             raise ValueError(f"the reference has a vertex '{label}', the curves do not")
-        dx, dy = x[i] - vertex_x[of_label[label]], y[i] - vertex_y[of_label[label]]
+        dx, dy = x[i] - of_label[label][0], y[i] - of_label[label][1]
         distance = np.hypot(dx / sigma_x[i], dy / sigma_y[i])
         above[i] = dy[distance.argmin()]
         sigmas[i] = np.copysign(distance.min(), above[i])
