@@ -29,7 +29,6 @@ ROW = {
     "velocity_normal [m/s]": 2.5,
     "spin [rad/s]": 0.0,
 }
-OTHER = {"other_radius [m]": 0.01, "other_gyration [m]": 0.005}
 
 
 def impacts(**more):
@@ -92,7 +91,8 @@ def test_parts_do_not_show(table, monkeypatch):
     """A part of whole numbers is written as one of others is, also after a row of words."""
     spins = ["1", "2", "3", "0.5", "4", "fast", "-7"]
     masses = ["inf", "inf", "1e400", "2.0", "1e99", "1", "1"]  # what is too large is not infinite
-    impacts(**{"spin [rad/s]": spins, **OTHER, "other_mass [kg]": masses}).to_csv(table)
+    other = {"other_radius [m]": 0.01, "other_gyration [m]": 0.005, "other_mass [kg]": masses}
+    impacts(**{"spin [rad/s]": spins}, **other).to_csv(table)
     whole, parts = table.with_name("whole.csv"), table.with_name("parts.csv")
     first = files.solve(table, whole, skip_bad=True)
     monkeypatch.setattr(files, "BYTES", 200)
