@@ -72,6 +72,8 @@ COMPILERS = {"c": (("cc", "gcc", "clang"), "-std=c99"), "cpp": (("c++", "g++", "
 MISTAKES = {
     "[{ ...pair, loss: undefined }, up, ball, down, zero]": "pair.loss = undefined: ",
     "[{ ...law, yield_pressure: '1e9' }, up, ball, down, zero]": "pair.yield_pressure = ",
+    "[pair, up, { ...ball, mass: '1' }, down, zero]": 'body.mass = "1": ',
+    "[{ friction: 1, stiffness_ratio: 1.5 }, up, ball, down, zero]": "pair = { friction: 1, ",
     "[undefined, up, ball, down, zero]": "pair = undefined: allowed is an object",
     "[pair, { x: 0, y: 0, z: 1 }, ball, down, zero]": "normal = { x: 0, y: 0, z: 1 }: allowed is ",
     "[pair, up, ball, [0, 0, -1, 0], zero]": "velocity = [0, 0, -1, 0]: ",
