@@ -148,19 +148,16 @@ def of_half(law):
     return one, fit.lines(one, GLASS, **SPHERE)
 
 
-def served(law):
-    """Mass and radius, over those of one sphere, of the contacts that a code serves with them."""
-    contacts = {"pair": (1 / 2, 1 / 2), "wall": (1.0, 1.0)}
-    return contacts | ({"radii 1:3": (27 / 28, 3 / 4)} if law.startswith("lammps") else {})
-
-
 @pytest.mark.parametrize("law", fit.CODES)
 def test_the_lines_have_the_contact_of_the_fit(law):
     """By the loop of each code, a number at a time, in SI units, from the printed numbers."""
     one, lines = of_half(law)
     groups = 3.5, one.stiffness, one.damping, one.told
     places = [7, 30, 60, 90]
-    for name, (mass, radius) in served(law).items():
+    # Mass and radius, over those of one sphere, of the contacts that the code serves with them.
+    contacts = {"pair": (1 / 2, 1 / 2), "wall": (1.0, 1.0)}
+    contacts |= {"radii 1:3": (27 / 28, 3 / 4)} if law.startswith("lammps") else {}
+    for name, (mass, radius) in contacts.items():
         # What is no pair lasts another number of steps, so both are stepped more finely.
         finer = 1 if name == "pair" else 10
         steps = timestep.with_dashpots(
