@@ -6,14 +6,13 @@ Takes some minutes. Refuses to write where the two methods differ by more than t
 source states.
 """
 
-import csv
 import sys
-from pathlib import Path
 
 import numpy as np
 
 from planarimpact import continuum
 from planarimpact.continuum import annuli
+from tests.reference_solutions import exact_tables, table_files
 
 CIRCLES, STEPS = 128, 8192
 INCIDENCE = np.round(np.linspace(0.0, 10.0, 101), 1)
@@ -44,16 +43,17 @@ def table(stiffness_ratio, incidence=INCIDENCE):
 
 def write(folder):
     """Write one CSV a stiffness ratio, all or none of them."""
-    tables = {name: table(ratio) for name, ratio in STIFFNESS_RATIO.items()}
-    for name, velocity in tables.items():
-        with open(Path(folder) / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
-            rows = csv.writer(file, lineterminator="\n")
-            rows.writerow(["incidence [mu v2(0)]", "velocity [mu v2(0)]"])
-            # No "-0.00000".
-            rows.writerows(
-                [f"{x:.1f}", f"{w + 0.0:.5f}"]
-                for x, w in zip(INCIDENCE, np.round(velocity, 5), strict=True)
-            )
+    tables = {}
+    for name, ratio in STIFFNESS_RATIO.items():
+        places = zip(INCIDENCE, table(ratio), strict=True)
+        tables[name] = table_files.table(
+            [exact_tables.INCIDENCE, exact_tables.VELOCITY], _row, places
+        )
+    table_files.write(folder, tables)
+
+
+def _row(x, velocity):
+    return [f"{x:.1f}", f"{table_files.digits(velocity, 5):.5f}"]
 
 
 if __name__ == "__main__":

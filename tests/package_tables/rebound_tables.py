@@ -8,14 +8,14 @@ some minutes. Histories in the same folder are of tests/reference_solutions/cont
 
 import functools
 import sys
+from itertools import product
 
 import numpy as np
 
 from tests.package_tables import annuli_tables
 from tests.reference_solutions import table_files
-from tests.reference_solutions.continuum_tables import digits
 from tests.reference_solutions.exact_tables import INCIDENCE, RUBBER, VELOCITY, ZETA2
-from tests.reference_solutions.table_files import Table
+from tests.reference_solutions.table_files import digits, table
 
 INCIDENCES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.1, 1.2, 1.3, 1.4, 1.6, 1.8, 2.0, 2.3, 2.6, 3.0, 3.3)
 INCIDENCES += (3.5, 3.7, 4.0, 4.3, 4.6, 5.0, 5.2, 5.4, 5.6, 5.7, 5.8, 6.0, 7.0, 8.0, 10.0, 12.0)
@@ -46,9 +46,8 @@ def _sphere_rebound(zeta2):
 
 
 def _grid():
-    rows = [functools.partial(_on_grid, x) for x in GRID]
     force, lost = "peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]"
-    return Table([INCIDENCE, VELOCITY, force, lost], rows)
+    return table([INCIDENCE, VELOCITY, force, lost], _on_grid, [(x,) for x in GRID])
 
 
 def _on_grid(x):
@@ -58,16 +57,14 @@ def _on_grid(x):
 
 
 def _fig5():
-    rows = []
-    for curve, zeta2, spins in (("continuum", ZETA2, True), ("continuum, rubber", RUBBER, False)):
-        rows += [functools.partial(_sphere, curve, x, zeta2, spins) for x in INCIDENCES]
-    return Table(["curve", INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"], rows)
+    header = ["curve", INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"]
+    return table(header, _sphere, product(("continuum", "continuum, rubber"), INCIDENCES))
 
 
-def _sphere(curve, x, zeta2, spins):
-    at, found = _sphere_rebound(zeta2)
+def _sphere(curve, x):
+    at, found = _sphere_rebound(RUBBER if "rubber" in curve else ZETA2)
     velocity = found.velocity[at.index(x)]
-    spin = digits(-5 / 7 * (x - velocity), 5) if spins else None
+    spin = None if "rubber" in curve else digits(-5 / 7 * (x - velocity), 5)
     return [curve, x, digits(velocity, 5), spin]
 
 

@@ -4,16 +4,16 @@ It begins at the ends of patches, at nodes of the splines and midway between the
 and at random places. From the worst of them it climbs: it tries places around them, nearer and
 nearer. Errors of velocity and work are in proportion to zeta^2: the largest one is tried. Those of
 plastic dissipation grow with the incidence, so the climb of that one leads to large incidences.
-Below x = 1 errors are in proportion to x: there a search of its own asks the second code, as the
-continuum would take very many steps. The suite tries what searches found and the impacts around
-it; the profile `long` climbs.
+Below x = 1 errors are in proportion to x: there the second code is asked, as the continuum would
+take very many steps. The suite tries what searches found and the impacts around it; the profile
+`long` climbs.
 """
 
 import numpy as np
 import pytest
 
 from planarimpact import Regime, continuum, export, spheres
-from planarimpact.spheres import making, table
+from planarimpact.spheres import making, table, thresholds
 from tests.reference_solutions import inelastic_contact
 
 # Of the continuum, whose errors are below half of it. Next to e = 0.3 a plastic one meets no less.
@@ -34,13 +34,8 @@ FOUND = {
         (1.17699264, 5.01968858, 1.5, 0.30633054),
         (0.505247, 3.5, 17 / 14, 0.314021),
         (1.6000655863, 3.45305838, 1.6, 0.35718138821472795),
-        (3.30345, 3.34647 * 1.5, 1.5, 0.333346),
-        # With coarser splines:
-        (3.871628254046297, 5.5613641738551465, 1.6, 0.3062608368430457),
-        (3.80948726962297, 5.6, 1.6, 0.3259995807527177),
-        (1.576, 5.6, 1.6, 0.3),
+        (1.576, 5.6, 1.6, 0.3),  # with coarser splines
         # Dissipation of impacts that leave fast:
-        (17.291610535986045, 2.500181166546506, 1.6, 0.3058904527389336),
         (17.6377, 2.50157, 1.6, 0.303126),
         # Of the upper panel, which was not wrong:
         (1.2, 3.5, 1.2, 0.88),
@@ -156,29 +151,20 @@ def test_the_coarse_table_is_as_near_as_it_says(name, monkeypatch):
 
 @pytest.mark.parametrize("name", table.ROOTS)
 @pytest.mark.parametrize(
-    ("seed", "tried"),
-    [(0, 1), *(pytest.param(seed, 30, marks=pytest.mark.long) for seed in (1, 2))],
+    "count", [1, pytest.param(60, marks=pytest.mark.long)], ids=["one", "many"]
 )
-def test_below_x_of_1_the_error_is_over_x(name, seed, tried):
-    """A climb over b and e from the worst of some; each tries incidences down to 1e-9."""
-    random, loss = np.random.default_rng([21, seed]), name.partition("_")[0]
+def test_below_x_of_1_the_error_is_over_x(name, count):
+    """At random b and e, and incidences down to 1e-9."""
     x, zeta2 = np.array([1e-9, 1e-4, 1e-3, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.3, 0.9]), 1.6
-
-    def share(place):
-        t, u = place
+    loss, shipped = name.partition("_")[0], table.shipped()
+    for t, u in np.random.default_rng(21).random((count, 2)):
         b = np.clip(making.b_at(u), spheres.LEAST_RATIO, spheres.LARGEST_RATIO)
-        limits = table.limits_at(table.shipped(), np.array([u]))[:, 0]
-        e = making.e_at(name, t, limits)
+        e = making.e_at(name, t, table.limits_at(shipped, np.array([u]))[:, 0])
         e = np.clip(e, spheres.LEAST_RESTITUTION, inelastic_contact.LARGEST_RESTITUTION)
         wanted = inelastic_contact.small_incidences(loss, x, b * zeta2, zeta2, e)
         found = spheres.rebound(x, b * zeta2, zeta2, e, loss=loss).velocity / x
-        return np.max(np.abs(found - wanted)) / (bound_of(name) + inelastic_contact.SMALL)
-
-    best, *place = max((share(place), *place) for place in random.random((tried, 2)))
-    for step in 0.3 * 0.7 ** np.arange(tried):
-        near = np.clip(place + random.normal(0, step, 2), 0, 1)
-        best, *place = max((best, *place), (share(near), *near))
-    assert best <= 1, place
+        bound = bound_of(name) + inelastic_contact.SMALL
+        np.testing.assert_allclose(found, wanted, rtol=0, atol=bound, err_msg=str((b, e)))
 
 
 @pytest.mark.parametrize("loss", spheres.LOSSES)
@@ -202,22 +188,6 @@ def test_impacts_that_were_wrong_and_those_around_them(loss):
     assert (error <= bounds).all(), error / bounds
 
 
-@pytest.mark.parametrize("name", table.ROOTS)
-def test_the_answer_does_not_jump_from_patch_to_patch(name):
-    random, shipped = np.random.default_rng(30), table.shipped()
-    panel, (t, u) = shipped.panels[name], random.random((2, 1000))
-    for patch in range(panel.intervals.size - 1):
-        y, b, e = making.impacts(name, panel.edges, shipped.limits, patch, np.ones(t.size), t, u)
-        sides = [
-            table.evaluate(shipped, side, b, e, np.full(t.size, name != "viscous"))
-            for side in (y * (1 - 1e-13), y * (1 + 1e-13))
-        ]
-        rounding = 2 * 2.0**-shipped.exponent
-        for field in ("velocity", "peak"):
-            before, after = (getattr(side, field) for side in sides)
-            np.testing.assert_allclose(before, after, rtol=0, atol=rounding)
-
-
 @pytest.mark.parametrize(("loss", "stated"), [("viscous", 4e-6), ("plastic", 1e-3)])
 def test_the_velocity_jumps_no_more_than_is_stated(loss, stated):
     """Where slip throughout begins, and at the restitutions where plastic panels meet."""
@@ -238,3 +208,35 @@ def test_the_velocity_jumps_no_more_than_is_stated(loss, stated):
         for x, e in impacts
     ]
     assert stated / 5 < np.max(np.abs(jumps)) <= stated
+
+
+def test_what_needs_no_table_is_exact():
+    still = spheres.rebound(0.0)
+    assert (still.velocity, still.regime) == (0.0, Regime.STICK)
+    for loss in spheres.LOSSES:
+        slides, exact = (
+            model([7.0, -9.0], 3.5, 1.2, 0.6, loss=loss)
+            for model in (spheres.rebound, continuum.rebound)
+        )
+        np.testing.assert_array_equal(slides.regime, Regime.SLIP_THROUGHOUT)
+        for field in ("velocity", "peak_friction", "dissipation"):
+            np.testing.assert_allclose(getattr(slides, field), getattr(exact, field), rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("name", "number"), [("viscous", 3), pytest.param("plastic_middle", 3, marks=pytest.mark.long)]
+)
+def test_the_job_makes_the_shipped_table(name, number):
+    """One patch of the coarse one, which takes the least time."""
+    plan, shipped = making.PLANS["coarse"], table.shipped("coarse")
+    u = np.linspace(0, 1, plan.edges[1] + 1)[::16]
+    np.testing.assert_allclose(
+        shipped.limits[:, ::16], thresholds.limits(making.b_at(u)), atol=1e-7
+    )
+    panel = shipped.panels[name]
+    values = making.nodes_of(name, plan, panel.edges, shipped.limits, number)
+    first = int(np.sum(panel.intervals[:number] + 3))
+    own = slice(first, first + panel.intervals[number] + 3)
+    for coefficients, wanted in zip((panel.velocity, panel.peak), values, strict=False):
+        fit = making.splined(wanted)
+        np.testing.assert_allclose(coefficients[own], fit, rtol=0, atol=2.0**-shipped.exponent)

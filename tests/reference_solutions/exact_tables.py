@@ -6,6 +6,7 @@ python -m tests.reference_solutions.exact_tables data/lumped_40_digits
 import functools
 import math
 import sys
+from itertools import product
 
 from mpmath import mp
 
@@ -18,13 +19,8 @@ RUBBER = 1.5  # zeta^2 at Poisson's ratio 0.5
 CONTACTS = {"fig3": 1.0, "fig4": 2.5}
 RESTITUTIONS = (1.0, 0.5)
 # Parameters of data/kharaz2001; they are float64 numbers, as the solver has them.
-SHOT = {
-    "stiffness_ratio": 1.164,
-    "restitution": 0.98,
-    "friction": 0.092,
-    "speed": 3.9,
-    "radius": 0.0025,
-}
+SHOT = {"stiffness_ratio": 1.164, "restitution": 0.98, "friction": 0.092}
+SHOT |= {"speed": 3.9, "radius": 0.0025}
 # The ball of Fig. 8; its plate is of the same steel and as good as plane and infinitely heavy.
 BALL = {
     "friction": 0.18,
@@ -286,10 +282,9 @@ FIG8_ANGLES += [80.0, 85.0]
 
 
 def _fig8():
-    rows = [functools.partial(_normal_newtons, angle) for angle in FIG8_ANGLES]
-    rows += [functools.partial(_friction_newtons, angle) for angle in FIG8_ANGLES]
     columns = ["peak_force [N]", "peak_over_mu_normal [1]", "lowest_friction [N]"]
-    return Table(["curve", ANGLE, *columns], rows)
+    places = product(("normal", "friction"), FIG8_ANGLES)
+    return table(["curve", ANGLE, *columns], _newtons, places)
 
 
 def _hertz():
@@ -304,14 +299,12 @@ def _hertz():
     return mp.mpf(4) / 3 * spring * depth ** (mp.mpf(3) / 2)
 
 
-def _normal_newtons(angle):
-    return ["normal", angle, _hertz() * mp.cos(mp.radians(angle)), None, None]
-
-
-def _friction_newtons(angle):
+def _newtons(curve, angle):
+    if curve == "normal":
+        return [curve, angle, _hertz() * mp.cos(mp.radians(angle)), None, None]
     scale, answer = _at_angle(BALL["friction"], angle)
     force, peak = scale * _hertz(), answer.peak_friction
-    return ["friction", angle, force * peak, peak, force * lowest_friction(answer)]
+    return [curve, angle, force * peak, peak, force * lowest_friction(answer)]
 
 
 def lowest_friction(answer):
@@ -360,12 +353,8 @@ def _fig9():
 def _dissipation(curve, mu, e, angle, work):
     scale, answer = _at_angle(mu, angle, e)
     share = 2 * scale**2
-    return [
-        curve,
-        angle,
-        share * answer.dissipation,
-        share * answer.friction_work if work else None,
-    ]
+    spent = share * answer.friction_work if work else None
+    return [curve, angle, share * answer.dissipation, spent]
 
 
 if __name__ == "__main__":

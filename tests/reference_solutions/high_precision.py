@@ -60,31 +60,13 @@ class _Half(NamedTuple):
 
 
 def rebound(incidence, mass_ratio, stiffness_ratio, restitution, digits=40):
-    """Solve one impact.
+    """Solve one impact; the arguments count as exact, and answers carry some digits more.
 
-    Parameters
-    ----------
-    incidence : float, int, str or mpf
-        Tangential over normal approach speed, divided by the friction coefficient (x); any sign.
-    mass_ratio, stiffness_ratio : float, int, str or mpf
-        beta and zeta^2, positive.
-    restitution : float, int, str or mpf
-        Energetic coefficient of restitution e, from 0 to 1.
-    digits : int
-        Correct decimal digits wanted. The numbers returned carry further digits, of no meaning.
-
-    Returns
-    -------
-    Answer
-        For e = 0 the collision ends at greatest compression, and the last event shows the
-        forces just before they are lost. A phase of zero length is not an event.
+    For e = 0 the collision ends at greatest compression, and the last event shows the forces just
+    before they are lost. A phase of zero length is not an event.
     """
     with mp.workdps(digits + GUARD_DIGITS):
         x, beta, zeta2, e = map(mp.mpf, (incidence, mass_ratio, stiffness_ratio, restitution))
-        if not (mp.isfinite(x) and 0 < beta < mp.inf and 0 < zeta2 < mp.inf):
-            raise ValueError("incidence must be finite, the ratios positive and finite")
-        if not 0 <= e <= 1:
-            raise ValueError("restitution must lie between 0 and 1")
         mirror = -1 if x < 0 else 1
         return _Impact(mirror * x, beta, zeta2, e, digits).solve(mirror)
 

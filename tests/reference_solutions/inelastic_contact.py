@@ -60,15 +60,10 @@ def _until(force, gap, start, time):
         return gap(*state)
 
     over.terminal, over.direction = True, -1
-    motion = solve_ivp(
-        lambda _, s: [s[1], -force(*s)],
-        (time, time + LONGEST),
-        start,
-        events=over,
-        dense_output=True,
-        **EXACT,
+    span = time, time + LONGEST
+    return solve_ivp(
+        lambda _, s: [s[1], -force(*s)], span, start, events=over, dense_output=True, **EXACT
     )
-    return motion
 
 
 def _two_phases(loading, unloading, over):
@@ -191,23 +186,7 @@ def small_incidences(loss, x, beta, zeta2, restitution):
 
 
 def impact(model, x, beta, zeta2, restitution, steps=600, springs=200):
-    """Velocity, work of friction, largest friction and gross slips of some impacts.
-
-    Parameters
-    ----------
-    model : str
-        One of `MOTIONS`.
-    x : array_like, shape (n,)
-        Incidences.
-    beta, zeta2, restitution : float
-    steps, springs : int
-        Of time, and over the radius of a continuum.
-
-    Returns
-    -------
-    Impact
-        Arrays of shape (n,).
-    """
+    """Impacts of some incidences, with so many steps of time and springs over the radius."""
     motion, parameter = motion_with(model, float(restitution))
     row = {"continuum.viscous": _Viscous, "continuum.plastic": _Plastic, "lumped.viscous": _Pair}
     contact = row[model](motion, parameter, zeta2, springs)

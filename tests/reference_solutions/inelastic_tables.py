@@ -203,16 +203,8 @@ def ball_path(*errors):
 
     Without gravity. On the floor the point of contact moves with v - R spin, on the underside of
     the table with v + R spin, spin positive where the ball turns as if it rolled on the floor.
-
-    Parameters
-    ----------
-    *errors : float
-        Added to the velocity of contact after each impact, in mu v2(0): for how errors add up.
-
-    Returns
-    -------
-    list of tuple
-        Place and height [m], velocity along and up [m/s], spin [rad/s].
+    `errors`, in mu v2(0), are added to the velocity of contact after each impact, to see how errors
+    add up. Rows are place and height [m], velocity along and up [m/s], spin [rad/s].
     """
     radius, mu, e = (THROW[key] for key in ("radius", "friction", "restitution"))
     along, up = THROW["velocity"]

@@ -32,21 +32,9 @@ def contact_radius(time):
 
 
 def course(x, beta, zeta2, instants, springs, steps):
-    """Friction, velocity and radius of stick at some instants.
+    """Friction, velocity and radius of stick at some ascending instants, in t_c.
 
-    Parameters
-    ----------
-    x : array_like, shape (impacts,)
-        Incidences v1(0)/(mu v2(0)) >= 0.
-    beta, zeta2 : float
-    instants : array_like
-        Ascending times in t_c; each must be that of a step, a multiple of 2/steps.
-    springs, steps : int
-        Over the largest contact, and over the whole of it.
-
-    Returns
-    -------
-    Course
+    Springs are counted over the largest contact, steps over the whole of it.
     """
     wanted = np.round(np.asarray(instants) * steps / 2).astype(int)
     if not np.allclose(wanted * 2 / steps, instants, rtol=0, atol=1e-12):

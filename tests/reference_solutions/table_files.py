@@ -12,17 +12,10 @@ DIGITS = 50  # carried
 
 
 class Table(NamedTuple):
-    """A table whose rows are computed one by one, so that a test can compute a few of them anew.
-
-    Attributes
-    ----------
-    header : list of str
-    rows : list of callable
-        Each returns the cells of its row: words, numbers, or None for a cell left empty.
-    """
+    """A table whose rows are computed one by one, so that a test can compute a few of them anew."""
 
     header: list[str]
-    rows: list[Any]
+    rows: list[Any]  # functions of the cells: words, numbers, or None for a cell left empty
 
     def cells(self, row):
         """The texts of one row; numbers have 20 digits, float64 those that identify it."""
@@ -33,6 +26,12 @@ class Table(NamedTuple):
 def table(header, function, places):
     """The table whose rows are what a function returns at each of some places, its arguments."""
     return Table(header, [partial(function, *place) for place in places])
+
+
+def impacts(folder, header, function):
+    """The one table of a folder, made anew: what a function returns of the groups in each row."""
+    points = [tuple(map(float, list(row.values())[:4])) for row in read(f"{folder}/impacts")]
+    return {"impacts": table(header, function, [(point,) for point in points])}
 
 
 def digits(number, places):
@@ -66,21 +65,10 @@ def read(name):
 
 
 def differing(path, table, every=1, last_place=0.0):
-    """Rows of a file that are not what its table computes; `every` so many rows are computed.
+    """Rows that a file has and should have, where they differ; `every` so many are computed.
 
-    Parameters
-    ----------
-    path : Path
-    table : Table
-    every : int
-    last_place : float
-        What numbers may differ by: one in the last place written, where floating point computes
-        them and may round otherwise on another machine.
-
-    Returns
-    -------
-    list of (list of str, list of str)
-        What the file has and what it should have. A wrong header or number of rows comes first.
+    Numbers may differ by `last_place`: one in the last place written, where floating point computes
+    them and may round otherwise on another machine.
     """
     with open(path, newline="", encoding="utf-8") as file:
         header, *found = csv.reader(file)

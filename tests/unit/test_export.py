@@ -71,17 +71,12 @@ COMPILERS = {"c": (("cc", "gcc", "clang"), "-std=c99"), "cpp": (("c++", "g++", "
 # What a caller of JavaScript forgets or mistakes, and how the message begins.
 MISTAKES = {
     "[{ ...pair, loss: undefined }, up, ball, down, zero]": "pair.loss = undefined: ",
-    "[{ ...pair, restitution: 1, loss: 'foo' }, up, ball, down, zero]": 'pair.loss = "foo": ',
     "[{ ...law, yield_pressure: '1e9' }, up, ball, down, zero]": "pair.yield_pressure = ",
-    "[{ ...law, relaxation_time: true }, up, ball, down, zero]": "pair.relaxation_time = true: ",
     "[pair, up, { ...ball, mass: '1' }, down, zero]": 'body.mass = "1": ',
-    "[{ ...pair, restitution: undefined }, up, ball, down, zero]": "pair.restitution = undefined: ",
-    "[{ ...pair, friction: null }, up, ball, down, zero]": "pair.friction = null: ",
     "[{ friction: 1, stiffness_ratio: 1.5 }, up, ball, down, zero]": "pair = { friction: 1, ",
     "[undefined, up, ball, down, zero]": "pair = undefined: allowed is an object",
     "[pair, { x: 0, y: 0, z: 1 }, ball, down, zero]": "normal = { x: 0, y: 0, z: 1 }: allowed is ",
     "[pair, up, ball, [0, 0, -1, 0], zero]": "velocity = [0, 0, -1, 0]: ",
-    "[pair, up, ball, ['0', 0, -1], zero]": 'velocity = ["0", 0, -1]: ',
     "[pair, up, ball, down]": "spin = undefined: allowed is an array of three ",
     "[pair, up, { mass: 1, radius: 1 }, down, zero]": "body.gyration = undefined: ",
     "[pair, up, ball, down, zero, null, zero, zero]": "other = null: allowed is an object",
@@ -140,35 +135,27 @@ def said_by_node(folder, name, text):
 
 
 def sphere_edges(shipped, random):
-    """Ends of patches and faces of splines, and one float beside in x, ratio or e."""
+    """Ends of patches, and faces of splines."""
     for name, panel in shipped.panels.items():
         sizes = [size - table.ORDER + 1 for size in panel.velocity.shape[1:]]
         for number, intervals in enumerate(panel.intervals):
             shape = np.array([intervals, *sizes])[:, None]
             s, t, u = random.integers(0, 1 + shape, (3, EDGES)) / shape
-            free = random.random((2, EDGES))
-            t, u = np.where(random.random((2, EDGES)) < 0.5, free, [t, u])
             y, b, e = making.impacts(name, panel.edges, shipped.limits, number, s, t, u)
             varying = table.varying_edges(panel.edges, t, u)
             loss = np.full(EDGES, 1.0 + (name != "viscous"))
             for x in np.broadcast_arrays(y, *table.edges_of(name, varying, b, e)[1:]):
                 yield np.stack([x, b, np.ones(EDGES), e, loss])
-                for axis in (0, 1, 3):
-                    for beyond in (0, np.inf):
-                        row = np.stack([x, b, np.ones(EDGES), e, loss])
-                        row[axis] = np.nextafter(row[axis], beyond)
-                        yield row
 
 
 def impacts_of(shipped):
-    """Every edge, one float beside it, bounds, what is refused, and random impacts."""
+    """Edges, bounds, what is refused, and random impacts."""
     random = np.random.default_rng(20)
     e, ratio = random.uniform(0.3, 1, COUNT), random.uniform(1.5625, 3.5, COUNT)
     e[::9], e[1::9], ratio[2::9], ratio[3::9] = 0.3, 1.0, 1.5625, 3.5
     for start, limit in zip((4, 13), shipped.limits, strict=True):
         between = np.interp(table.over_b(ratio), np.linspace(0, 1, limit.size), limit)
-        beside = between, np.nextafter(between, 0), np.nextafter(between, 1)
-        e[start::18] = np.choose(np.arange(COUNT) % 3, beside)[start::18]
+        e[start::18] = between[start::18]
     beta = random.choice([2.5, 3.5], COUNT)
     x = random.uniform(-1.1, 1.1, COUNT) * (1 + e) * beta
     x[5::99], x[6::99], x[7::99], x[8::99] = 0.0, 5e-324, LARGEST, np.inf
@@ -231,22 +218,12 @@ def test_files_name_their_range_and_errors(name, folder):
 
 def test_a_header_meets_cpp_and_never_a_compiler_without_nan(folder):
     """A compiler without NaN may drop the test of the range, and a table is read beyond its end."""
-    code = '#include "coarse.h"\nint main(int n, char **v) { '
-    code += "return coarse_velocity(n / 0.0 - n / 0.0, 3.5, 1.2, 0.8, COARSE_PLASTIC)"
-    (folder / "nan.c").write_text(f"{code} > 1 && v; }}\n")
     for names, standard in COMPILERS.values():
-        for file, options, works in (
-            ("run_coarse.c", FLAGS, True),
-            ("nan.c", ["-ffast-math"], False),
-            ("nan.c", ["-ffinite-math-only"], False),
-        ):
-            command = [program(*names), standard, *options, "-Wfatal-errors", "-fsyntax-only", file]
+        for option, works in (("-Werror", True), ("-ffast-math", False)):
+            command = [program(*names), standard, *FLAGS, option, "-fsyntax-only", "run_coarse.c"]
             done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-            assert (done.returncode == 0) == works, (options, done.stderr)
+            assert (done.returncode == 0) == works, done.stderr
             assert works or "This header needs NaN" in done.stderr
-    options = ["-O3", "-ffast-math", "-fno-finite-math-only", "nan.c", "-o", "nan", "-lm"]
-    subprocess.run([program(*COMPILERS["c"][0]), *options], cwd=folder, check=True)
-    subprocess.run(["./nan"], cwd=folder, check=True)
 
 
 # The README's examples ------------------------------------------------------------------------
@@ -255,24 +232,23 @@ def test_a_header_meets_cpp_and_never_a_compiler_without_nan(folder):
 @pytest.mark.parametrize(
     ("language", "file", "commands"),
     [
-        ("c", "main.c", [["cc", "-std=c99", "-O2", "main.c", "-lm"], ["./a.out"]]),
-        ("js", "main.mjs", [["node", "main.mjs"]]),
+        ("c", "main.c", "cc -std=c99 -O2 main.c -lm; ./a.out"),
+        ("js", "main.mjs", "node main.mjs"),
     ],
 )
 def test_the_readme_prints_what_it_says(language, file, commands, tmp_path, monkeypatch):
-    commands[0][0] = program(commands[0][0])
     monkeypatch.chdir(tmp_path)
     section = README.read_text(encoding="utf-8").split("## In C and JavaScript")[1]
     written = re.findall(rf"^\S+/planarimpact (.* --as {language} .*)$", section, flags=re.M)
     assert [main(shlex.split(command)) for command in written] == [0] * len(written)
     blocks = re.findall(rf"```{language}\n(.*?)```", section, flags=re.S)
     assert len(written) == len(blocks) == 1
-    for text in blocks:
-        (tmp_path / file).write_text(text)
-        for command in commands:
-            done = subprocess.run(command, check=True, capture_output=True, text=True)
-        said = re.findall(r"^ *(?:printf|console.log)\(.*; // (.*)$", text, flags=re.M)
-        assert said and done.stdout.splitlines() == said
+    (tmp_path / file).write_text(blocks[0])
+    for command in map(str.split, commands.split("; ")):
+        command[0] = command[0] if command[0] == "./a.out" else program(command[0])
+        done = subprocess.run(command, check=True, capture_output=True, text=True)
+    said = re.findall(r"^ *(?:printf|console.log)\(.*; // (.*)$", blocks[0], flags=re.M)
+    assert said and done.stdout.splitlines() == said
 
 
 # Changes of the README's loop for games: all digits of the peak after each impact and of the place
@@ -463,50 +439,27 @@ def test_mistakes_of_callers_of_javascript_are_named(folder):
         assert text.startswith(begin) and text.count("allowed") == 1, (call, text)
 
 
-def shifted(rows, decades):
-    """Rows with each number so many decades larger, or smaller, within the range of numbers."""
-    root, most = 10 ** (decades / 2), np.finfo(float).max
-    with np.errstate(over="ignore"):
-        return np.where(np.isinf(rows), rows, np.clip(rows * root * root, -most, most))
-
-
-def told(rows, folder):
-    """Whether C tells a problem, where a number of its answer is missing without, and answers."""
-    found, _ = run(folder, "c", "coarse", "collide", rows)
-    after = named(FIELDS, found)
-    finite = np.isfinite(found[:, :15]).all(axis=1) & ~np.isnan(after["incidence"])
-    low = after["restitution"] < spheres.LEAST_RESTITUTION
-    for name in ("restitution", "error_bound", "model_form"):
-        finite &= np.isfinite(after[name]) | (low & (name != "restitution"))
-    quiet = after["told"] == 0
-    still = after["regime"] == Regime.NO_IMPACT
-    np.testing.assert_array_equal(found[quiet & still, :12], rows[quiet & still][:, STATES])
-    return ~quiet, quiet & ~still & ~finite, found
-
-
 def test_a_problem_is_told_wherever_a_number_would_not_be_finite(folder, collisions):
-    """Numbers of all kinds up to 310 decades away, and as near to a problem as they can be."""
-    random, count = np.random.default_rng(49), COUNT // 2
-    rows = rows_of(*collisions[0])[:count]
-    decades = []
+    """Numbers of all kinds up to 310 decades away."""
+    random, rows, most = np.random.default_rng(49), rows_of(*collisions[0]), np.finfo(float).max
+    of = {}
     for name, width in COLUMNS.items():
-        scale = random.uniform(-310, 310, (len(rows), width + 1))
+        scale = random.uniform(-310, 310, (COUNT, width + 1))
         scale *= random.random(scale.shape) < ([0.05] * width + [0.3])
         fixed = name in ("normal", "stiffness_ratio", "restitution", "loss")
-        decades.append(np.clip(scale[:, :-1] + scale[:, -1:], -310, 310) * (not fixed))
-    of = dict(zip(COLUMNS, decades, strict=True))
+        of[name] = np.clip(scale[:, :-1] + scale[:, -1:], -310, 310) * (not fixed)
     for who in ("", "other_"):  # else most mass ratios are beyond the table
-        of[who + "gyration"][:] = of[who + "radius"]
-    decades = np.concatenate(decades, axis=1)
-    far = shifted(rows, decades)
-    refused, missing, found = told(far, folder)
-    assert not missing.any() and count // 10 < refused.sum() < count * 5 // 6
-    np.testing.assert_array_equal(found, run(folder, "js", "coarse", "collide", far)[0])
-    rows, decades = rows[refused], decades[refused]
-    good, bad = np.zeros((2, len(rows), 1))
-    bad[:] = 1
-    for _ in range(50):
-        middle = (good + bad) / 2
-        is_told, missing, _ = told(shifted(rows, middle * decades), folder)
-        assert not missing.any()
-        good[~is_told], bad[is_told] = middle[~is_told], middle[is_told]
+        of[who + "gyration"] = of[who + "radius"]
+    root = 10 ** (np.column_stack(list(of.values())) / 2)
+    with np.errstate(over="ignore"):
+        rows = np.where(np.isinf(rows), rows, np.clip(rows * root * root, -most, most))
+    found, same = (run(folder, language, "coarse", "collide", rows)[0] for language in ("c", "js"))
+    np.testing.assert_array_equal(found, same)
+    after = named(FIELDS, found)
+    finite = np.isfinite(found[:, :15]).all(axis=1) & np.isfinite(after["restitution"])
+    finite &= ~np.isnan(after["incidence"])
+    low = after["restitution"] < spheres.LEAST_RESTITUTION
+    finite &= low | np.isfinite([after["error_bound"], after["model_form"]]).all(axis=0)
+    told, still = after["told"] == 1, after["regime"] == Regime.NO_IMPACT
+    np.testing.assert_array_equal(found[still, :12], rows[still][:, STATES])
+    assert (told | still | finite).all() and COUNT // 10 < told.sum() < COUNT * 5 // 6
