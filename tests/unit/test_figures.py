@@ -60,7 +60,6 @@ def test_a_good_folder_is_read_and_bytecode_is_none(folder):
         ("allowed: friction", "allowed: frictoin", "settings: allowed: 'frictoin' is no kind"),
         ("value: 0.5", "value: 50", "figure.yaml: settings: friction: 50 is greater than the max"),
         ("allowed: friction", "allowed: {type: nubmer}", "friction.allowed.type: 'nubmer' is not"),
-        ("allowed: friction", "allowed: {$ref: '#/$defs/no'}", "allowed: 'no' is no kind"),
         ("value: 0.5, allowed: friction", "value: [1, 0], allowed: {ascending: true}", "larger th"),
         ('curve: "e = {e}"', 'curve: "e = {f}"', "comparisons.line-{e}: `each` has no {f}"),
         ("e: [0.5, 1]", "e: [1, 1]", "comparisons.line-{e}: 'line-1' stands twice"),

@@ -78,6 +78,13 @@ def test_friction_beyond_its_limit_is_found_in_either_direction(
     assert found["friction_excess [mu F2max]"] == pytest.approx([excess] * 2)
 
 
+def test_a_contact_that_cannot_be_followed_counts_as_wrong(points, monkeypatch):
+    monkeypatch.delattr(lumped, "history")
+    found = stability.curves(points, 10)["contacts"]
+    assert found["friction_excess [mu F2max]"].tolist() == [1, 1]
+    assert found["energy_residual [1]"].tolist() == [1, 1]
+
+
 @pytest.mark.parametrize(
     ("x", "zeta2", "most_work"),
     [

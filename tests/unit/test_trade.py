@@ -110,7 +110,8 @@ def test_which_model_is_the_cheapest_with_the_time_to_make_it():
         ({"timestep.linear, 16 steps": (0.232, 0.70), "lumped": (0.215, 0.76)}, "lumped"),
         # Faster by more than times scatter, and more: the faster one.
         ({"timestep.linear, 16 steps": (0.232, 0.70), "lumped": (0.215, 0.79)}, "timestep"),
-        # Their own scatter counts.
+        # The scatter of either counts.
+        ({"timestep.linear": (0.232, 0.70, 0.4), "lumped": (0.215, 0.9)}, "lumped"),
         ({"timestep.linear": (0.232, 0.70), "lumped": (0.215, 0.9, 0.4)}, "lumped"),
         # Of those that meet the tolerance only.
         ({"rigid": (1.8, 0.05), "lumped": (0.215, 0.9)}, "lumped"),

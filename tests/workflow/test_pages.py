@@ -4,9 +4,7 @@ axe (https://github.com/dequelabs/axe-core) finds what people with a disability 
 """
 
 import contextlib
-import doctest
 import functools
-import html
 import inspect
 import json
 import pathlib
@@ -143,24 +141,6 @@ def test_every_link_of_the_site_leads_somewhere_in_it(site, figures):
     assert dead_links(figures, [path.name for path in figures.glob("*.html")]) == []
 
 
-@pytest.mark.parametrize("every", [6, pytest.param(1, marks=pytest.mark.long)])
-def test_each_example_of_the_interface_runs_as_the_first_page_says(site, every):
-    examples = []
-    for path in sorted((site / "interface/planarimpact").rglob("*.html")):
-        module = ".".join(path.relative_to(site / "interface").with_suffix("").parts)
-        page = path.read_text(encoding="utf-8")
-        for shown in re.findall("<pre>(.*?)</pre>", page, flags=re.S):
-            text = html.unescape(re.sub("<[^>]+>", "", shown))
-            if text.startswith(">>> "):
-                examples.append((module, text))
-    assert len(examples) > 100
-    runner = doctest.DocTestRunner()
-    for module, text in examples[::every]:
-        text = f">>> import numpy as np\n>>> from {module} import *\n{text}"
-        runner.run(doctest.DocTestParser().get_doctest(text, {}, module, module, 0))
-    assert runner.failures == 0
-
-
 def test_presets_of_the_explorer_are_states_that_it_allows(figures):
     page = parsed(figures / "explorer.html")
     states = [state for state in page.controls["preset"]["options"] if state]
@@ -210,14 +190,6 @@ def test_axe_finds_nothing_and_no_page_is_wider_than_a_phone(figures, look, name
 
 def test_axe_finds_nothing_of_ours_on_the_interface(site, look):
     assert look(site / INTERFACE, NOT_OURS) == NONE
-
-
-def test_links_unfold_what_they_lead_to(figures, tab):
-    tab.open(f"{(figures / 'report.html').as_uri()}#fig6-rebound")
-    for name in ("fig6-rebound", "fig2-solved"):
-        tab.evaluate(f"location.hash = '{name}'; new Promise((go) => setTimeout(go, 50))")
-        assert tab.evaluate(f"document.getElementById('{name}').closest('details').open")
-    assert not tab.problems
 
 
 FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>
