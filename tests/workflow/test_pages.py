@@ -104,8 +104,9 @@ def site(figures, tmp_path_factory):
     """The site, written after a run and unpacked somewhere else."""
     folder = tmp_path_factory.mktemp("site")
     with contextlib.chdir(figures.parent):
-        notebooks = pathlib.Path("results/notebooks").glob("*.ipynb")
-        pages = pathlib.Path("figures").iterdir()
+        pages = [path for path in pathlib.Path("figures").iterdir() if path.suffix != ".md"]
+        notebooks = [*pathlib.Path("results/notebooks").glob("*.ipynb")]
+        notebooks.append("workflow/notebooks/lecture.mplstyle")
         write_site.write(f"{folder}/site", pages, notebooks, ["LICENSE", "CITATION.cff"])
     interface.write(f"{folder}/site/interface")
     write_site.pack(f"{folder}/site", f"{folder}/site.zip")
