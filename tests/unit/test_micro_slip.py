@@ -35,6 +35,13 @@ def test_first_loading_and_way_back_are_the_closed_forms():
     np.testing.assert_allclose(stick[1:10], cattaneo_mindlin.stick_radius(force[1:10]), atol=1e-14)
 
 
+def test_pushed_further_than_friction_the_whole_contact_slips():
+    force, stick = micro_slip.friction([1.0, 1.0, 1.0, 1.0], [0.0, 5.0, 4.5, 3.0])
+    np.testing.assert_allclose(force[1], 1.0, atol=1e-15)
+    assert stick[1] == 0
+    np.testing.assert_allclose(force[3], cattaneo_mindlin.unloading(-1.0, 1.0), atol=1e-15)
+
+
 def test_straight_oblique_loading_does_not_slip():
     """Where approach grows faster than displacement every new spring sticks at once."""
     growth = np.linspace(0.1, 1.0, 10)
