@@ -58,13 +58,9 @@ def test_a_good_folder_is_read_and_bytecode_is_none(folder):
     [
         ("shows:", "show:", "fig10/figure.yaml: top level: .*'show' was .*; allowed are shows, "),
         ("allowed: friction", "allowed: frictoin", "settings: allowed: 'frictoin' is no kind"),
-        ("value: 0.5,", "", "settings.friction: 'value' is a required property"),
         ("value: 0.5", "value: 50", "figure.yaml: settings: friction: 50 is greater than the max"),
         ("allowed: friction", "allowed: {type: nubmer}", "friction.allowed.type: 'nubmer' is not"),
-        ("allowed: friction", "allowed: {minimun: 4}", "allowed: .*'minimun' was unexpected"),
-        ("allowed: friction", "allowed: {$ref: '#/$defs/no'}", "allowed: 'no' is no kind"),
         ("value: 0.5, allowed: friction", "value: [1, 0], allowed: {ascending: true}", "larger th"),
-        ("metric: distance", "metrik: distance", "comparisons.line-{e}: top level: .*allowed are"),
         ('curve: "e = {e}"', 'curve: "e = {f}"', "comparisons.line-{e}: `each` has no {f}"),
         ("e: [0.5, 1]", "e: [1, 1]", "comparisons.line-{e}: 'line-1' stands twice"),
     ],
@@ -77,7 +73,7 @@ def test_a_faulty_figure_is_refused(old, new, words, folder):
     assert "\n" not in str(refusal.value)
 
 
-@pytest.mark.parametrize("name", ["figure.yaml", "curves.py", "drawing.py"])
+@pytest.mark.parametrize("name", ["figure.yaml", "drawing.py"])
 def test_a_file_that_is_missing_is_named(name, folder):
     (folder / "fig10" / name).unlink()
     with pytest.raises(SourceError, match=f"fig10/{name}: (missing|No such file)"):

@@ -1,7 +1,6 @@
 """Hertz contact under tangential load: motion, closed forms, and the row of springs."""
 
 import numpy as np
-import pytest
 import scipy.special
 
 from planarimpact.continuum import cattaneo_mindlin, micro_slip
@@ -38,8 +37,9 @@ def test_first_loading_and_way_back_are_the_closed_forms():
 
 def test_pushed_further_than_friction_the_whole_contact_slips():
     force, stick = micro_slip.friction([1.0, 1.0, 1.0, 1.0], [0.0, 5.0, 4.5, 3.0])
-    assert force[1] == pytest.approx(1.0, abs=1e-15) and stick[1] == 0
-    assert force[3] == pytest.approx(cattaneo_mindlin.unloading(-1.0, 1.0), abs=1e-15)
+    np.testing.assert_allclose(force[1], 1.0, atol=1e-15)
+    assert stick[1] == 0
+    np.testing.assert_allclose(force[3], cattaneo_mindlin.unloading(-1.0, 1.0), atol=1e-15)
 
 
 def test_straight_oblique_loading_does_not_slip():
@@ -50,13 +50,12 @@ def test_straight_oblique_loading_does_not_slip():
     np.testing.assert_allclose(force, 0.6 * growth**1.5, atol=1e-15)
 
 
-def test_closed_forms_saturate_and_are_odd():
+def test_the_closed_form_is_odd_saturates_and_has_all_digits():
     u = np.linspace(0, 2, 21)
     force = cattaneo_mindlin.friction(u)
     np.testing.assert_array_equal(cattaneo_mindlin.friction(-u), -force)
     assert (force[10:] == 1).all() and (np.diff(force[:11]) > 0).all()
-    assert cattaneo_mindlin.unloading(0.6, 0.6) == pytest.approx(cattaneo_mindlin.friction(0.6))
-    assert cattaneo_mindlin.unloading(-0.6, 0.6) == pytest.approx(cattaneo_mindlin.friction(-0.6))
+    np.testing.assert_allclose(cattaneo_mindlin.friction(1e-17), 1.5e-17, rtol=1e-14)
 
 
 def test_hertz_time_keeps_its_digits_at_maximum_compression():
@@ -72,10 +71,6 @@ def test_hertz_time_has_all_digits_near_both_ends():
     early = phase**2 / (0.4 * scipy.special.beta(0.4, 0.5))
     np.testing.assert_allclose(hertz.time(phase), early, rtol=1e-8)
     np.testing.assert_allclose(2 - hertz.time(np.pi - phase), early, atol=4e-16)
-
-
-def test_small_displacements_keep_their_digits():
-    assert cattaneo_mindlin.friction(1e-17) == pytest.approx(1.5e-17, rel=1e-14)
 
 
 def test_a_vertex_on_the_edge_of_the_cone_does_not_mislead():

@@ -9,7 +9,7 @@ class Page(HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.ids, self.links, self.resources, self.words = [], [], [], []
-        self.bar, self.controls, self.tags = [], {}, {}
+        self.bar, self.controls = [], {}
         self._in_bar, self._select = False, None
         self.feed(text)
 
@@ -17,7 +17,6 @@ class Page(HTMLParser):
         found = dict(attributes)
         if "id" in found:
             self.ids.append(found["id"])
-            self.tags[found["id"]] = tag
         self._in_bar |= tag == "nav" and found.get("class") == "site"
         if tag == "a" and "href" in found:
             self.links.append(found["href"])

@@ -59,14 +59,6 @@ def test_a_failed_run_names_its_rows_last_and_repeats_the_config(folder):
     assert last[-1] == f"  and 2 more: {plans.GATE_LOG}"
 
 
-def test_an_edited_table_of_verdicts_hides_no_fault(folder):
-    fault = f"{gate.TABLES[0]}: not as its job left it"
-    ended(folder, fault)
-    row = VERDICT | {"rms [sigma]": "many"}
-    csv_tables.write_rows(folder / gate.TABLES[0], list(row), [list(row.values())])
-    assert last_words.text(stopped=True).endswith(f"FAILED. Reasons: 1\n  {fault}\n")
-
-
 @pytest.mark.parametrize("log", [None, "", "\n"])
 def test_a_gate_that_found_nothing_and_let_nothing_pass_is_no_verdict(folder, log):
     """It has not run, was stopped or touched, or other jobs came after it."""
@@ -74,17 +66,6 @@ def test_a_gate_that_found_nothing_and_let_nothing_pass_is_no_verdict(folder, lo
     words = last_words.text()
     assert "No verdict in this run" in words and "FAILED" not in words
     assert "diverges" not in words and "stopped" not in words and "Verdicts:" not in words
-
-
-def test_a_run_of_some_files_names_the_verdicts_that_it_made(folder):
-    (folder / record.JOBS).write_text("3\ndraw_fig6\njudge_fig6\nstopped judge_fig5\n")
-    (folder / "results/verdicts").mkdir()
-    for figure in ("fig5", "fig6"):
-        (folder / f"results/verdicts/{figure}.csv").touch()
-    said = last_words.text()
-    judge = "snakemake --cores 2 fig6"
-    assert f"\nresults/verdicts/fig6.csv: 0 fail. To judge it:  {judge}\n" in said
-    assert "fig5" not in said
 
 
 @pytest.mark.parametrize(
