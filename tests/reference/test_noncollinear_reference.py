@@ -106,7 +106,8 @@ def test_no_restitution_is_the_limit_for_any_body(e):
     # these impacts lies between.
     little = paper_rebound(v1, 1.0, mass, mu, e, zeta2)
     bound = swing(limit.peak_friction, limit.peak_normal, mass, e)
-    assert (np.abs(little.tangential - limit.tangential) <= bound).all()
+    for name in ("tangential", "peak_friction"):
+        assert (np.abs(getattr(little, name) - getattr(limit, name)) <= bound).all(), name
 
 
 @pytest.mark.parametrize(
