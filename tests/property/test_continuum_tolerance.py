@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, continuum, lumped
-from planarimpact.collision import rungs
 from planarimpact.continuum import inelastic
 from planarimpact.continuum.micro_slip import ElasticSprings
 from planarimpact.ground import sliding
@@ -32,12 +31,11 @@ def extrapolated(values):
 def plain(x, beta, zeta2, steps):
     """Position Verlet in the velocity and displacement themselves, from first contact on.
 
-    Returns the velocity, the largest friction at a step, and the number of gross slips.
+    Returns the velocity and the largest friction at a step.
     """
     step = np.pi / steps
     springs = ElasticSprings(np.zeros(x.size), steps)
-    u, w, peak, slips = np.zeros(x.size), x.copy(), np.zeros(x.size), np.zeros(x.size, int)
-    slid = np.ones(x.size, bool)
+    u, w, peak = np.zeros(x.size), x.copy(), np.zeros(x.size)
     for n in range(steps):
         for phase in ((n + 0.25) * step, (n + 0.75) * step):
             u = u + step / 2 * hertz.state(phase)[1] * w / zeta2
@@ -46,26 +44,13 @@ def plain(x, beta, zeta2, steps):
                 force = springs.move(np.full(x.size, np.sin(middle)), u)
                 w = w - step * 1.25 * beta * hertz.state(middle)[1] * force
         peak = np.maximum(peak, np.abs(force))
-        gross = springs.stick_radius == 0
-        slips += gross & ~slid
-        slid = gross
-    return w, peak, slips
+    return w, peak
 
 
 def reference(x, beta, zeta2):
     """Velocity, extrapolated, how far that moved with the last doubling, and peak friction."""
     found = [plain(x, beta, zeta2, n) for n in STEPS]
-    return *extrapolated([velocity for velocity, _, _ in found]), found[-1][1]
-
-
-def onsets(beta, zeta2, low, high):
-    """Incidences at which the number of gross slips changes, one for each pair, by bisection."""
-    number = plain(low, beta, zeta2, 512)[2]
-    for _ in range(12):
-        middle = (low + high) / 2
-        same = plain(middle, beta, zeta2, 512)[2] == number
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return low
+    return *extrapolated([velocity for velocity, _ in found]), found[-1][1]
 
 
 def corner(count):
@@ -78,17 +63,6 @@ def corner(count):
     return np.array([x, beta, zeta2])
 
 
-def around_onsets(pairs):
-    """Spread about the incidences at which one gross slip more sets in."""
-    rng = np.random.default_rng(6)
-    beta, zeta2 = rng.uniform(6.0, 20.0, pairs), 10 ** rng.uniform(-0.7, 0.0, pairs)
-    limit = lumped.slip_throughout_limit(beta, zeta2)
-    at = onsets(beta, zeta2, 0.05 * limit, 0.3 * limit)
-    shift = rng.choice([-1, 1], (12, pairs)) * 10 ** rng.uniform(-6.0, -2.0, (12, pairs))
-    groups = np.broadcast_arrays(at * (1 + shift), beta, zeta2)
-    return np.array([a.ravel() for a in groups])
-
-
 def all_over(count):
     """Spread over the box of the groups."""
     rng = np.random.default_rng(0)
@@ -97,6 +71,14 @@ def all_over(count):
     return np.array([x, beta, zeta2])
 
 
+# One gross slip more sets in at these incidences.
+ONSETS = np.array(
+    [
+        (7.844158892650791, 13.534300920607205, 0.3648780480267027),
+        (5.800402224669332, 11.166941357135295, 0.5532601508573053),
+    ]
+).T
+BESIDE_ONSETS = [ONSETS * [[1 + shift], [1], [1]] for shift in (-1e-3, -1e-5, 1e-5, 1e-3)]
 # Where faults were found. In the third, gross slip sets in after maximum compression, with a root
 # in its curvature, between two steps.
 FOUND = [
@@ -127,13 +109,13 @@ def assert_met(groups, tolerances):
 
 
 def test_the_tolerance_is_met_by_elastic_spheres():
-    samples = np.array(FOUND).T, corner(20), around_onsets(3), all_over(12)
-    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: 49, 1e-5: 12})
+    samples = np.array(FOUND).T, *BESIDE_ONSETS, corner(10), all_over(6)
+    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: 15, 1e-5: 5})
 
 
 @pytest.mark.slow
 @pytest.mark.long
-@pytest.mark.parametrize("sample", [corner(200), around_onsets(24), all_over(400)])
+@pytest.mark.parametrize("sample", [corner(200), all_over(400)])
 def test_the_tolerance_is_met_by_many_elastic_spheres(sample):
     assert_met(sample, {1e-2: None, 1e-3: None, 1e-4: None})
 
@@ -142,8 +124,7 @@ def test_the_estimate_survives_a_change_that_vanishes_by_chance():
     """From 256 to 512 steps the extrapolated answer moves by 1e-6, and is wrong by 3.4e-4."""
     groups = 8.823256960990886, 18.56038953662075, 0.3168530116148592
     exact = -0.55347522  # extrapolated from 4096 steps; 8192 change it by 3e-8
-    for tolerance in (5e-4, 3e-4):
-        assert abs(continuum.rebound(*groups, tolerance=tolerance).velocity - exact) <= tolerance
+    assert abs(continuum.rebound(*groups, tolerance=3e-4).velocity - exact) <= 3e-4
 
 
 def test_the_end_of_slip_within_a_step_is_not_missed():
@@ -153,18 +134,6 @@ def test_the_end_of_slip_within_a_step_is_not_missed():
     assert continuum.rebound(*groups, tolerance=1e-4).regime == Regime.MULTIPLE
     for steps in (128, 256, 512):
         assert abs(continuum.fixed_steps(*groups, steps, True) - exact) < 1e-5
-
-
-def test_error_falls_with_the_square_of_the_steps_and_better_extrapolated():
-    x = np.linspace(0.1, 5.7, 30)
-    exact = continuum.fixed_steps(x, 3.5, 17 / 14, 2048, True)
-    errors = []
-    for steps in (64, 128, 256, 512):
-        answers = [continuum.fixed_steps(x, 3.5, 17 / 14, steps, better) for better in (0, 1)]
-        errors.append(np.sqrt(np.mean(np.square(answers - exact), axis=1)))
-    once, twice = np.log2(np.array(errors)[:-1] / np.array(errors)[1:]).T
-    assert (np.abs(once - 2) < 0.1).all(), once
-    assert np.mean(twice) > 2.2, twice
 
 
 # ---- with a loss ----
@@ -285,24 +254,3 @@ def test_the_error_falls_smoothly_with_the_square_of_the_steps(loss):
     found = [inelastic.path(x, *groups, motion, n).velocity[-1] for n in (128, 256, 512)]
     # Found 2e-5. An edge with its whole width has 9e-5, slip that ends unseen within steps 1.4e-4.
     assert extrapolated(found)[1].max() < 4e-5
-
-
-@pytest.mark.parametrize("loss", [None, *continuum.LOSSES])
-def test_a_tolerance_may_be_a_share_of_any_incidence(loss):
-    """As friction becomes large, x vanishes, and the velocity vanishes in proportion to it."""
-    rng, n, tolerance = np.random.default_rng(50), 5, 5e-3
-    x = 10.0 ** np.concatenate([[-300.0, -100.0, -12.0], rng.uniform(-9, 0, n - 3)])
-    beta, zeta2 = 10 ** rng.uniform(0, 1.6, n), 10 ** rng.uniform(-0.5, 0.6, n)
-    e = rng.uniform(0.1, 0.97, n) if loss else np.ones(n)
-    found, _, messages = rungs.solved(loss, x, (beta, zeta2, e), tolerance * x)
-    assert not messages
-    near = np.maximum(x, 1e-7)  # it is linear below
-    if loss:
-        law = inelastic.MOTIONS[loss]
-        coarse, fine = (
-            inelastic.path(near, beta, zeta2, e, law, steps).velocity[-1] for steps in (1024, 2048)
-        )
-        right = fine + (fine - coarse)  # as slip becomes narrow the error falls with the step
-    else:
-        right = continuum.fixed_steps(near, beta, zeta2, 2048)
-    np.testing.assert_allclose(found.velocity / x, right / near, rtol=0, atol=tolerance)

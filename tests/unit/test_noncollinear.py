@@ -9,8 +9,7 @@ import pytest
 from planarimpact import Regime, noncollinear
 from planarimpact.bodies import Motion
 from planarimpact.ground.checks import ConvergenceError
-from planarimpact.noncollinear import InverseMass, rigid, solver, stick_end
-from planarimpact.noncollinear.phases import Groups, Slip, State
+from planarimpact.noncollinear import InverseMass, rigid, solver
 
 paper_rebound = partial(noncollinear.rebound, loss="hysteretic")
 paper_history = partial(noncollinear.history, loss="hysteretic")
@@ -51,28 +50,6 @@ def test_two_bodies_are_one_of_their_inverse_mass():
     np.testing.assert_allclose(one[:9], other[:9])
 
 
-def test_arguments_broadcast_and_scalars_stay_scalars():
-    result = paper_rebound([0.0, 1.0], 1.0, rod([[10.0], [20.0], [30.0]]), 0.5, 0.5)
-    assert all(field.shape == (3, 2) for field in result)
-    single = paper_rebound(1.0, 1.0, rod(20.0), 0.5, 0.5)
-    assert isinstance(single.regime, Regime) and isinstance(single.jams, bool)
-    assert all(found[1, 1] == one for found, one in zip(result, single, strict=True))
-    for rebound in (paper_rebound, rigid.rebound):
-        none = rebound(np.zeros((0, 2)), 1.0, rod(20.0), 0.5, 0.5)
-        assert all(field.shape == (0, 2) for field in none)
-
-
-@pytest.mark.parametrize("law", list(rigid.Law))
-def test_speed_and_mass_only_scale_the_rigid_impulse(law):
-    a, c, b = rod(20.0)
-    plain = rigid.rebound(1.0, 1.0, rod(20.0), 0.5, 0.5, law)
-    for speed, mass in ((2.0**600, 0.25), (2.0**-600, 4.0)):
-        scaled = InverseMass(a / mass, c / mass, b / mass)
-        found = rigid.rebound(speed, speed, scaled, 0.5, 0.5, law)
-        units = speed, speed, mass * speed, mass * speed
-        assert all(x == y * unit for x, y, unit in zip(found, plain, units, strict=False))
-
-
 @pytest.mark.parametrize("e", [1e-6, 1e-12, 1e-20, 1e-300])
 def test_a_history_of_little_restitution_ends_at_separation(e):
     contact = paper_history(0.4, 1.0, rod(30.0), 0.8, e)
@@ -100,31 +77,10 @@ def test_impacts_that_rattle_on_are_named_and_the_others_answered(monkeypatch):
             function(12.0, *settings)
 
 
-def test_an_endless_approach_to_no_force_has_a_duration():
-    """Jam from y^2 = (mu C - 1) N^2 on: exactly, N would fall to zero for ever."""
-    groups = Groups(*np.array([[2.0], [1.0], [1.0], [1.25], [1.0]]))
-    slip = Slip.start(State(*np.array([[1.0], [-0.5], [1.25], [1.0]])), groups, 1.0)
-    impulse = slip.separation()
-    end = slip.after(impulse, impulse)
-    assert impulse == 2 and end.normal == 0 and end.approach == 0
-    assert np.isfinite(slip.duration(impulse, end.normal))
-
-
-def test_a_fast_mode_of_no_weight_does_not_exhaust_the_search():
-    """The end of stick is found to the rounding of time where a period is shorter than that."""
-    one, none = np.ones((5, 1)), np.zeros((5, 1))
-    above = np.array([[0.0], [1.0], [1.0], [1.0], [1.0]])  # cos t, and others that stay positive
-    which = stick_end.Functions(
-        above, one - above, none, none, none, 1e-15 * one, none, one, np.ones(1), np.full(1, 1e12)
-    )
-    time, index = stick_end.first_zero(which)
-    assert index == 0 and abs(time - np.pi / 2) <= 4e-16
-
-
 def test_friction_holds_a_contact_without_restitution_closed():
     """It is compressed twice, then held closed in stick, in creep, and let go without force."""
     mass = InverseMass(0.3692, 0.5663, 1.0)
-    contact = paper_history(6.2256, 1.0, mass, 1.8575, 0.0, 1.3185)
+    contact = paper_history(6.2256, 1.0, mass, 1.8575, 0.0, 1.3185, samples=20_000)
     assert [str(event.kind) for event in contact.events] == [
         "contact",
         "slip",
@@ -142,22 +98,11 @@ def test_friction_holds_a_contact_without_restitution_closed():
     # Friction is the force of a spring: in stick and in creep alike, by its deflection.
     np.testing.assert_allclose(contact.spring, 1.3185 * contact.friction, atol=1e-13)
     # The change of velocity is the impulse of the forces.
-    fine = paper_history(6.2256, 1.0, mass, 1.8575, 0.0, 1.3185, samples=20_000)
-    force = mass.coupling * fine.normal_force - mass.tangential * fine.friction
-    change = np.sum((force[1:] + force[:-1]) / 2 * np.diff(fine.time))
-    assert fine.tangential[-1] - 6.2256 == pytest.approx(change, abs=1e-5)
+    force = mass.coupling * contact.normal_force - mass.tangential * contact.friction
+    change = np.trapezoid(force, contact.time)
+    assert contact.tangential[-1] - 6.2256 == pytest.approx(change, abs=1e-5)
     result = paper_rebound(6.2256, 1.0, mass, 1.8575, 0.0, 1.3185)
     assert result.jams and result.regime == Regime.MULTIPLE and result.normal == 0
-
-
-def test_no_restitution_separates_at_maximum_compression():
-    contact = paper_history(0.4, 1.0, rod(30.0), 0.8, 0.0)
-    kinds = [str(event.kind) for event in contact.events]
-    assert kinds == ["contact", "stick", "maximum compression", "separation"]
-    result = paper_rebound(0.4, 1.0, rod(30.0), 0.8, [0.0, 1e-300, 1e-6])
-    assert (result.normal <= 0).all() and result.normal[0] == 0
-    assert np.ptp(result.tangential) < 1e-5
-    assert np.ptp(result.friction_work) < 1e-5
 
 
 @pytest.mark.parametrize(
@@ -241,7 +186,6 @@ def test_rigid_impulse_against_small_steps(law):
 
 
 def test_only_newtons_law_creates_energy():
-    """Towards the worst case of each law: climbed to, from the worst of random impacts."""
     rng = np.random.default_rng(5)
     low, high = np.array([[-9, 0.01, -1, 0, 0.0], [9, 100, 1, 9, 1.0]])[:, :, None]
 
@@ -252,17 +196,8 @@ def test_only_newtons_law_creates_energy():
         before = noncollinear.kinetic_energy(v1, 1.0, mass)
         return noncollinear.kinetic_energy(found.tangential, found.normal, mass) / before - 1
 
-    largest = {}
-    for law in LAWS:
-        groups = low + (high - low) * rng.random((5, 20_000)) ** 2
-        worst = groups[:, np.argsort(gain(groups, law))[-200:]]
-        for spread in (0.1, 0.01, 1e-4, 1e-8):
-            near = worst[:, :, None] + spread * (high - low)[:, :, None] * rng.normal(
-                size=(5, 200, 30)
-            )
-            near = np.clip(near.reshape(5, -1), low, high)
-            worst = near[:, np.argsort(gain(near, law))[-200:]]
-        largest[law] = gain(worst, law).max()
+    groups = low + (high - low) * rng.random((5, 20_000)) ** 2
+    largest = {law: gain(groups, law).max() for law in LAWS}
     # Energies near the singular mass are differences: 1/(1 - 0.999^2) = 500 roundings.
     assert largest[rigid.Law.ENERGETIC] <= 1e-12 and largest[rigid.Law.KINETIC] <= 1e-12
     assert largest[rigid.Law.KINEMATIC] > 10

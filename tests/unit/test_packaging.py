@@ -1,6 +1,8 @@
-"""What others install: the wheel, the source archive and the environments."""
+"""What others install: wheel, source archive and environments; a quick import, examples."""
 
 import ast
+import importlib
+import inspect
 import json
 import re
 import shutil
@@ -117,3 +119,30 @@ def test_the_container_runs_the_main_command():
     command = re.search(r"<!-- main -->\n```sh\n(.*)\n", text("README.md"))[1]
     steps = re.findall(r"^(?:RUN|CMD) (.*)$", text("Containerfile"), flags=re.M)
     assert " && ".join([*steps[:-1], " ".join(json.loads(steps[-1]))]) == command
+
+
+def test_the_import_is_quick_and_has_all_rooms():
+    """Of sources that are not installed, too."""
+    code = (
+        "import sys, planarimpact; assert not {'scipy', 'pandas', 'pyarrow'} & set(sys.modules);"
+        "print(planarimpact.lumped.rebound(8.0).velocity, planarimpact.__version__)"
+    )
+    command = [sys.executable, "-c", code]
+    result = subprocess.run(command, cwd=ROOT / "src", capture_output=True, text=True)
+    assert result.stdout == f"1.0 {planarimpact.__version__}\n", result.stderr
+
+
+def test_every_function_that_the_package_recommends_has_an_example():
+    functions = 0
+    for name in re.findall(r"`([a-z_.]+)`", planarimpact.__doc__):
+        path = ROOT / "src/planarimpact" / name.replace(".", "/")
+        if not path.is_dir() and not path.with_suffix(".py").is_file():
+            continue
+        room = importlib.import_module(f"planarimpact.{name}")
+        stated = getattr(room, "__all__", ())
+        for each in stated or [each for each in vars(room) if each[0] != "_"]:
+            function = getattr(room, each)
+            if inspect.isroutine(function) and (stated or function.__module__ == room.__name__):
+                functions += 1
+                assert "\nExamples\n---" in inspect.getdoc(function), f"{name}.{each}"
+    assert functions > 15

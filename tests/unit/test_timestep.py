@@ -5,12 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from planarimpact import InputError, Regime, continuum, lumped, models
+from planarimpact import InputError, Regime, lumped, models
 from planarimpact.models import timestep
 
 NAMES = ["linear", "mindlin", "mindlin_rescaled"]
 LINEAR, MINDLIN, RESCALED = LAWS = [models.get(f"timestep.{name}").rebound for name in NAMES]
-HERTZIAN = LAWS[1:]
 BETA, ZETA2 = 3.5, 17 / 14
 X = np.linspace(0, 8, 161)
 # Time to maximum compression of a Hertz contact, in d_max/v2(0): (2/5) B(2/5, 1/2).
@@ -32,17 +31,18 @@ def order(errors, factor):
 
 
 def leapfrog(law, x, beta, zeta2, e, steps):
-    """Velocities, and whether slip was seen in one direction alone, written plainly."""
+    """Velocities, peak frictions, and whether slip was seen in one direction alone, plainly."""
     hertzian = law is not LINEAR
     step = (1 + e) * (HERTZ if hertzian else math.pi / 2) / steps
     depth = deepest = radius = 0.0
+    peak = np.zeros(x.size)
     approach, w, friction, one_way = 1.0, x.copy(), np.zeros(x.size), np.ones(x.size, bool)
     while True:
         depth += step * approach
         deepest = max(deepest, depth)
         elastic = deepest - (deepest - depth) / e**2
         if elastic <= 0:
-            return w, one_way
+            return w, np.minimum(peak / (1.25 if hertzian else 1.0), 1.0), one_way
         before, radius = radius, math.sqrt(elastic) if hertzian else 1.0
         normal = 1.25 * elastic**1.5 if hertzian else elastic
         if law is RESCALED and radius < before:
@@ -50,6 +50,7 @@ def leapfrog(law, x, beta, zeta2, e, steps):
         friction += step * (1.875 if hertzian else 1.0) * radius * w / zeta2
         one_way &= friction > normal
         friction = np.clip(friction, -normal, normal)
+        peak = np.maximum(peak, np.abs(friction))
         approach -= step * normal
         w -= step * beta * friction
 
@@ -65,30 +66,32 @@ def softest(law, steps, e):
 def edges(law, zeta2, e, steps):
     """Incidences all over, and beside those where slip begins to be in one direction alone."""
     x = np.linspace(1e-3, 2.5 * BETA, 160)
-    slides = leapfrog(law, x, BETA, zeta2, e, steps)[1]
+    slides = leapfrog(law, x, BETA, zeta2, e, steps)[2]
     changes = np.flatnonzero(np.diff(slides))
     low, high, slides = x[changes], x[changes + 1], slides[changes]
     for _ in range(40):
         middle = (low + high) / 2
-        same = leapfrog(law, middle, BETA, zeta2, e, steps)[1] == slides
+        same = leapfrog(law, middle, BETA, zeta2, e, steps)[2] == slides
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     beside = low + np.array([[-1e-3], [-1e-6], [-1e-12], [1e-12], [1e-6], [1e-3]])
     return np.concatenate([x, beside.ravel()])
 
 
-@pytest.mark.parametrize("e", [1.0, 0.6])
+@pytest.mark.parametrize("e", [1.0, 0.6, 0.02])
 @pytest.mark.parametrize("steps", [3, 4, 5, 8, 96])
 @every_law
 def test_steps_however_coarse_are_the_leapfrog(law, steps, e):
     stiff = softest(law, steps, e)
     for zeta2 in (stiff, 2 * stiff) if steps == 96 else (stiff, max(stiff, 1.21)):
         x = edges(law, zeta2, e, steps)
-        w, one_way = leapfrog(law, x, BETA, zeta2, e, steps)
+        w, peak, one_way = leapfrog(law, x, BETA, zeta2, e, steps)
         found = law(x, BETA, zeta2, e, steps=steps)
         # Many stiff steps make a rounding grow with every stick; to take one regime for another
         # costs a velocity of the order of beta.
         np.testing.assert_allclose(found.velocity, w, atol=1e-3 if steps == 96 else 1e-9)
         np.testing.assert_array_equal(found.regime == Regime.SLIP_THROUGHOUT, one_way)
+        if steps < 96:
+            np.testing.assert_allclose(found.peak_friction, peak, atol=1e-9)
 
 
 @every_law
@@ -126,73 +129,4 @@ def test_linear_converges_to_lumped_with_the_square_of_the_steps(e):
     assert LINEAR(0.5, 8.0, 0.1, steps=2048).regime == Regime.MULTIPLE
 
 
-@pytest.fixture(scope="module")
-def elastic():
-    return continuum.rebound(X, BETA, ZETA2, tolerance=1e-4).velocity
-
-
-@pytest.mark.parametrize(("law", "measured"), list(zip(LAWS, [0.080, 0.291, 0.312], strict=True)))
-def test_distance_from_the_elastic_continuum(law, measured, elastic):
-    """Many steps do not bring a law nearer than its physics allows."""
-    for steps in (16, 64, 1024):
-        distance = rms(law(X, BETA, ZETA2, steps=steps).velocity - elastic)
-        assert distance == pytest.approx(measured, rel=0.1)
-
-
-# ---- limits ----
-
-
-@every_law
-@pytest.mark.parametrize("e", [1.0, 0.6, 0.0])
-def test_slip_throughout_has_the_impulse_of_the_normal_force(law, e):
-    x = np.array([8.0, 1e6])
-    for steps in (64, 1024):
-        result = law(x, BETA, ZETA2, e, steps=steps)
-        assert (result.regime == Regime.SLIP_THROUGHOUT).all()
-        # Near maximum compression the largest force falls between two steps.
-        np.testing.assert_allclose(result.peak_friction, 1.0, atol=2 / steps**2)
-        assert np.abs(result.velocity - (x - (1 + e) * BETA)).max() < 10 / steps**2
-
-
-@pytest.mark.parametrize(("law", "share"), [(MINDLIN, 1), (RESCALED, 2 / 3)])
-def test_where_hertz_contacts_begin_to_slip_and_to_slide_throughout(law, share):
-    """The first increment of friction is 3/2 of what its step would give in the limit."""
-    for steps in (64, 4096):
-        result = law(np.array([0.65, 0.68]) * ZETA2, BETA, ZETA2, steps=steps)
-        assert result.regime.tolist() == [Regime.STICK_SLIP, Regime.SLIP_STICK_SLIP]
-    around = 2 * BETA - share * ZETA2 + np.array([-0.05, 0.05])
-    slides = law(around, BETA, ZETA2, steps=1024).regime == Regime.SLIP_THROUGHOUT
-    assert slides.tolist() == [False, True]
-
-
-@pytest.mark.parametrize("steps", [3, 8, 64])
-@every_law
-def test_short_restitution_is_wrong_by_three_quarters_of_a_step_at_most(law, steps):
-    """Slip throughout, with restitution from no step long to one and a bit."""
-    share = np.linspace(0.0, 1.2, 2001)  # of a step
-    e = share / (steps - share)
-    error = (law(1e3, BETA, ZETA2, e, steps=steps).velocity - (1e3 - (1 + e) * BETA)) / BETA
-    to_maximum, largest = (math.pi / 2, 1.0) if law is LINEAR else (HERTZ, 1.25)
-    in_steps = np.abs(error) / ((1 + e) * to_maximum / steps * largest)
-    assert 0.6 < in_steps.max() < 0.75
-
-
 # ---- energy ----
-
-
-@every_law
-def test_no_energy_is_created_beyond_the_error_of_the_steps(law):
-    """Mindlin's law without rescaling does create some, in the limit too: up to 5 % in speed."""
-    share, *random = np.random.default_rng(5).uniform(size=(4, 6000))
-    x, beta, zeta2 = 10 ** (-3 + 4.3 * share), 1 + 7 * random[0], 10 ** (2 * random[1] - 1)
-    e = np.where(np.arange(6000) % 3 == 0, 1.0, random[2])
-    e[1::3] = 0.0
-    result = law(x, beta, zeta2, e, steps=64)
-    turned = np.sqrt(beta / zeta2) * np.pi * (1 + e) / 2 / 64  # angle a step
-    by_law = 0.055 if law is MINDLIN else 0.0
-    assert (np.abs(result.velocity) <= x * (1 + by_law + 0.15 * turned**2)).all()
-    assert (result.peak_friction >= 0).all() and (result.peak_friction <= 1).all()
-    if law is RESCALED:
-        assert (np.abs(result.velocity) <= x).all()
-    gain = law(1e-3, 3.5, 1.0, steps=4096).velocity / 1e-3
-    assert gain > 1.03 if law is MINDLIN else gain < 0.95
