@@ -273,14 +273,7 @@ def test_the_show_runs_pauses_and_ends(show):
 
 
 def test_the_closer_look_goes_as_far_as_the_contact_point(show):
-    # It slips throughout: its way until t_c/2, in v2(0)/Omega, is known, and drawn 26 times.
-    tab = show(f"angle=45&friction=0.1&restitution=1&of=lumped{SOLID}", height=3000)
-    contact = tab.evaluate("stage.first_bounce(0).segment")
-    type_in(tab, "time", contact["start"] + 0.5 / contact["end"] * contact["length"])
-    moved = tab.evaluate(f"{element('diagram-origin')}.getAttribute('transform')")
-    phase = math.pi / 4
-    way = 10 * phase - 3.5 * (phase - math.sin(phase))
-    assert 220 - float(re.findall(r"-?[\d.]+", moved)[0]) == pytest.approx(26 * way, abs=0.3)
+    tab = show(height=3000)
     go(tab, f"angle=40&friction=0.4&restitution=1{SOLID}")
     click(tab, "do-micro")
     assert text(tab, "patch-continuum-words") == "middle sticks, edge slips"
@@ -306,10 +299,6 @@ def test_a_link_leads_back_to_an_impact(show):
     assert value(tab, "angle") == 50
     tab.evaluate("history.back()")
     wait_for(tab, f"{element('angle')}.value", "33.3")
-    # The link to the content is no impact.
-    tab.evaluate("document.querySelector('.skip').click()")
-    wait_for(tab, "location.hash", "#main")
-    assert value(tab, "angle") == 33.3
     for copied, words in (("true", "The link is copied."), ("false", "Copy this link: file://")):
         tab.evaluate(f"files.copy = async (text) => {{ window.link = text; return {copied}; }}")
         click(tab, "do-copy")
