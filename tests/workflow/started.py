@@ -14,7 +14,7 @@ def start(folder, arguments, words):
     os.chdir(folder)
     os.environ["PATH"] = f"{os.path.dirname(sys.executable)}:{os.environ['PATH']}"
     for number in (1, 2):
-        os.dup2(os.open(words, os.O_WRONLY), number)
+        os.dup2(os.open(words, os.O_WRONLY | os.O_APPEND), number)
     sys.argv = ["snakemake", *arguments]
 
     from snakemake import cli

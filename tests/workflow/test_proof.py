@@ -168,17 +168,3 @@ def test_no_option_makes_a_wrong_verdict(toy, options):
     for option in options:
         found = toy.run(*option.split())
         assert not (toy / "results/PASSED").exists() and "PASSED." not in found.stdout
-
-
-@pytest.mark.long
-def test_a_run_that_is_asked_to_end_says_so(toy):
-    """SIGTERM, as a scheduler of a cluster sends it."""
-    (toy / "draw.within").write_text("wait")
-    running = toy.start("-R", "draw")
-    running.wait_for((toy / "draw.reached").exists)
-    os.kill(running.process.pid, signal.SIGTERM)
-    running.wait_for(lambda: "Will exit" in running.words.read_text())
-    (toy / "draw.within").unlink()
-    found = running.ended()
-    assert found.returncode != 0 and last_words.INTERRUPTED in found.stdout
-    toy.passes()

@@ -10,19 +10,10 @@ import re
 import numpy as np
 
 from stronge1994.plan import config as configuration
-from tests.workflow.project import ROOT, checked, config, ledger, sources
+from tests.workflow.project import ROOT, config, ledger, sources
 
 README = (ROOT / "workflow/README.md").read_text(encoding="utf-8")
 TROUBLE = README.split("## Troubleshooting")[1].split("\n## ")[0]
-
-
-def test_the_config_itself_is_admitted():
-    """Inside braces Snakemake makes texts of numbers and truths."""
-    checked({})
-    checked({"figures": {"fig6": {"as_printed": "True"}, "fig9": {"continua": {"models": []}}}})
-    configuration.refuse_misread_values(
-        ["a=1.5", "b=-2e-3", "c={d: [0, 0.6, 1], e: true}", "f=nan", "g="]
-    )
 
 
 def test_a_bound_is_refused_before_it_says_nothing():
