@@ -177,3 +177,18 @@ def test_limits_of_regimes_are_those_of_the_solver(zeta2, e):
     """They are worked out apart, so that no judge asks what it judges."""
     limits = limits_of_regimes(3.5, zeta2, e)
     assert limits == pytest.approx([zeta2, lumped.slip_throughout_limit(3.5, zeta2, e)], rel=1e-14)
+
+
+def test_a_contraction_is_of_the_curves_that_it_names():
+    """Neighbours of one curve leave further apart than they arrive."""
+    x = np.array([0.0, 1.0, 2.0])
+    curves = {
+        "e = 0.5": {"x": x, "w": 0.5 * x},
+        "continuum.viscous, e = 0.5": {"x": x, "w": 1.5 * x},
+    }
+    entry = {"metric": "contraction", "columns": ["x", "w"]}
+    for beginning, worst in (("e = ", 0.0), ("continuum", 0.5), ("", 0.5)):
+        found = measure(entry | {"beginning": beginning}, None, curves)
+        assert np.max(found.residuals.sigmas) == worst
+    with pytest.raises(ValueError, match="no curve has the columns"):
+        measure(entry | {"beginning": "lumped"}, None, curves)

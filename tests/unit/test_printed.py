@@ -42,13 +42,6 @@ def test_equations_17_to_20_lead_to_the_factors_of_21_that_the_scan_has_lost(e):
     assert np.abs(slip.eq_17_excess_rate(friction, normal, mu)).max() < 1e-12
 
 
-@pytest.mark.parametrize("e", [0.2, 0.5, 1.0])
-def test_no_solution_between_the_limits(e):
-    limit, end = float(lumped.slip_throughout_limit(BETA, ZETA2, e)), (1 + e) * BETA
-    x = np.linspace(limit, end, 12)[:-1]
-    assert np.isnan(impact.rebound(x, BETA, ZETA2, e)).all()
-
-
 def test_peaks_hold_up_to_beta_only():
     x = np.array([0.5, 1.2, 2.0, 3.49, 4.0, 5.0])
     _, peak, _ = impact.rebound(x, BETA, ZETA2, 1.0)
@@ -69,16 +62,6 @@ def test_the_largest_force_is_that_of_a_dense_line(cosine, sine, end):
     angle = np.linspace(0, end, 10_001)
     dense = np.abs(cosine * np.cos(angle) + sine * np.sin(angle)).max()
     assert impact._largest(cosine, sine, end) == pytest.approx(dense, rel=1e-6)
-
-
-def test_mirror_image_and_inelastic_limit():
-    x = np.linspace(0, 3.4, 30)
-    velocity, _, _ = impact.rebound(-x, BETA, ZETA2, 0.0)
-    assert np.abs(velocity + lumped.rebound(x, BETA, ZETA2, 0.0).velocity).max() < 1e-12
-
-
-def test_a_slow_tangential_oscillation_is_not_in_the_print():
-    assert np.isnan(impact.rebound([0.5], 1.0, 2.0, 1.0)[0][0])
 
 
 CONTINUA = {"models": ["continuum.plastic"], "restitution": [0.5], "tolerance": 1e-2}
