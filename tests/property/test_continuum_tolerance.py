@@ -109,8 +109,8 @@ def assert_met(groups, tolerances):
 
 
 def test_the_tolerance_is_met_by_elastic_spheres():
-    samples = np.array(FOUND).T, *BESIDE_ONSETS, corner(10), all_over(6)
-    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: 15, 1e-5: 5})
+    samples = np.array(FOUND).T, corner(10), *BESIDE_ONSETS, all_over(6)
+    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: 23, 1e-5: 8})
 
 
 @pytest.mark.slow
