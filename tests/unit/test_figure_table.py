@@ -2,7 +2,6 @@
 
 import pytest
 
-from stronge1994.plan import figures
 from stronge1994.verdict_tables import figure_table, verdict_table
 from stronge1994.verdict_tables.verdict_table import QUESTIONS
 
@@ -66,11 +65,3 @@ def test_a_cell_says_the_largest_difference_and_the_distance_of_all_points():
     rms = ((4 * 0.02**2 + 12 * 0.04**2) / 16) ** 0.5
     assert (item.points, item.size, item.unit) == ("16", f"{rms:.2g}", "mu v2(0)")
     assert (item.sigmas, item.verdict) == ("2", "untested difference")
-
-
-def test_figures_of_the_paper_come_first_and_scenes_are_one_row():
-    names = sorted(["yielding", "fig10", "fig9", "fig2"], key=figures.place)
-    rows = [row(SOLVED, "right", figure=name) for name in [*names, "scene_a", "scene_b"]]
-    table = figure_table.of_run(rows)
-    assert [found.figure for found in table] == ["fig2", "fig9", "fig10", "yielding", "scenes"]
-    assert table[-1].solved[0].rows == ["scene_a-rebound", "scene_b-rebound"]

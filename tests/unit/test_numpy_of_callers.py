@@ -83,8 +83,3 @@ def test_a_masked_entry_is_refused_and_an_empty_mask_is_none(name):
             call(given)
     assert repr(call(WHOLE)) == repr(call(WHOLE.data))
     assert repr(call([WHOLE, WHOLE])) == repr(call([WHOLE.data] * 2))
-
-
-def test_an_infinity_beside_a_masked_entry_hides_nothing():
-    with pytest.raises(InputError, match="other has masked entries"):
-        bodies.effective_radius(0.02, np.ma.array([np.inf, -5.0], mask=[False, True]))

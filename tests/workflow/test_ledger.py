@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from markupsafe import escape
 
-from planarimpact import Regime, continuum, lumped, noncollinear
+from planarimpact import continuum, lumped, noncollinear
 from stronge1994 import reference_data
 from stronge1994.ledger import checking, contact, entries, finding, outcome
 from stronge1994.ledger.finding import Finding
@@ -181,21 +181,6 @@ def test_the_head_of_the_page_names_all_that_is_wrong_by_cause(rows, tmp_path):
     }
     order = [re.findall(r'<span class="mark \w+">([^<]+)</span>', group)[0] for group in groups]
     assert order == sorted(order, key=list(outcome.GRADES).index)
-
-
-def test_the_explorer_shows_the_impacts_that_the_entries_speak_of():
-    assert set(ledger_page.IN_EXPLORER) <= set(ENTRIES)
-    regimes = {
-        "slip-throughout-limit": Regime.SLIP_THROUGHOUT,
-        "limit-falls-with-losses": Regime.SLIP_THROUGHOUT,
-        "stick-in-compression": Regime.SLIP_STICK_SLIP,
-        "eq-39": Regime.STICK_SLIP,
-        "eq-40": Regime.SLIP_STICK_SLIP,
-    }
-    for name, regime in regimes.items():
-        angle, friction, restitution, _ = ledger_page.IN_EXPLORER[name]
-        incidence = np.tan(np.radians(angle)) / friction
-        assert lumped.rebound(incidence, 3.5, 1.21, restitution).regime == regime, name
 
 
 def test_the_page_has_every_entry_and_says_what_holds_instead(first_run):
