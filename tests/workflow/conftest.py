@@ -11,7 +11,6 @@ import pytest
 from stronge1994 import plan
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
-from stronge1994.plan import config as configuration
 from tests.workflow import browser, node, project
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, Project, copy_of
 
@@ -83,9 +82,8 @@ def answers():
 def explorer(tmp_path_factory, answers):
     """The explorer page, written as a run writes it."""
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    config = configuration.load(ROOT)
     sources = sorted((ROOT / "workflow/explorer").iterdir())
-    text = write_explorer.page(plan.settings_of_explorer(config), sources, answers)
+    text = write_explorer.page(plan.settings_of_explorer(project.config()), sources, answers)
     path.write_text(text, encoding="utf-8")
     return path
 

@@ -4,8 +4,6 @@ The points are made up from the solver's own curves, and never enter data/. Thes
 load and compare as the jobs of a run do; a whole run is in test_run.py.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,11 +11,9 @@ from planarimpact import continuum, lumped
 from stronge1994 import csv_tables, plan, reference_data
 from stronge1994.figures.fig8 import curves as fig8
 from stronge1994.judging import compare
-from stronge1994.plan import config as configuration
+from tests.workflow.project import ROOT, config, schema
 
-ROOT = Path(__file__).parents[2]
-CONFIG = configuration.load(ROOT)
-SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
+CONFIG = config()
 JOHNSON, LEWIS = "johnson1983", "lewis_rogers1988"
 RUBBER = f"{JOHNSON}/rubber_sphere"
 # The awaited series, and what is compared with each.
@@ -72,7 +68,7 @@ def judged(inventory, curves, tmp_path):
         folder.mkdir(exist_ok=True)
         (tmp_path / f"{name}.csv").write_text(written(name, x, y))
         (folder / "source.yaml").write_text(filled(name, len(x)))
-        found = inventory | {source: reference_data.load(folder, SCHEMA)}
+        found = inventory | {source: reference_data.load(folder, schema("source"))}
         entry = CONFIG["comparisons"][AWAITED[name]] | change
         references = plan.references(CONFIG, found, figure)
         path, significance = curves / f"{figure}.csv", CONFIG["significance"]

@@ -16,7 +16,7 @@ from stronge1994.figures.inelastic import trials as pair_trials
 from stronge1994.figures.rubber_sphere import curves as rubber
 from stronge1994.figures.yielding import curves as yielding
 from tests.reference_solutions import cross_tables, table_files
-from tests.workflow.project import ROOT
+from tests.workflow.project import ROOT, schema
 
 BETA_0, MAX = inelastic.BETA_0, "max_velocity [mu v2(0)]"
 PAPER = "lumped.hysteretic, pairs"
@@ -161,12 +161,11 @@ def test_series_and_sigma_follow_from_the_runs_and_every_run_is_planned(make, in
 
 
 def test_what_makes_the_series_is_there(tmp_path):
-    schema = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
     folder = tmp_path / "finite_elements"
     shutil.copytree(ELEMENTS, folder)
     (folder / "runs.csv").unlink()
     with pytest.raises(reference_data.SourceError, match="runs.csv: missing"):
-        reference_data.load(folder, schema)
+        reference_data.load(folder, schema("source"))
 
 
 # Error against time

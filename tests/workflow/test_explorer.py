@@ -10,7 +10,6 @@ import json
 import math
 import re
 import time
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -20,10 +19,9 @@ from matplotlib.image import imread
 from planarimpact import bodies, continuum, lumped
 from stronge1994 import plan
 from stronge1994.explorer import page as write_explorer
-from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
+from tests.workflow.project import config
 
-ROOT = Path(__file__).parents[2]
 SLIDERS = [name for name in write_explorer.LIMITS if name not in ("radius", "gravity")]
 SOLID = "&poisson_ratio=0.3&mass_ratio=3.5"
 # A change is drawn in the next frame of the browser.
@@ -316,7 +314,7 @@ def test_the_stage_alone_is_a_frame_of_a_lecture(show):
 
 
 def test_presets_stand_where_the_figures_say():
-    settings = plan.settings_of_explorer(configuration.load(ROOT))
+    settings = plan.settings_of_explorer(config())
     presets, printed = write_explorer.presets(settings), settings["figures"]
     assert sorted(presets) == sorted(figures.with_trait("explorer"))
     for figure in ("fig3", "fig4"):

@@ -10,10 +10,9 @@ import pytest
 from stronge1994 import csv_tables
 from stronge1994.ledger import outcome
 from stronge1994.pages import report as write_report
-from stronge1994.plan import config as configuration
 from stronge1994.run import gate, record
 from stronge1994.verdict_tables import verdict_table
-from tests.workflow.project import ROOT
+from tests.workflow.project import ROOT, config
 
 # Not part of a run, but asked for.
 OTHERS = {"site"}
@@ -146,12 +145,12 @@ def report(first_run, inventory, tmp_path, monkeypatch):
             strips(rows, *more) if any("fig5" in row["comparison"] for row in rows) else {}
         ),
     )
-    config = configuration.load(ROOT) | {"slides": []}
-    names = list(config["figures"])
+    without_slides = config() | {"slides": []}
+    names = list(without_slides["figures"])
     verdicts, ledger = (csv_tables.read_rows(path) for path in gate.TABLES)
     settings = {
         "captions": dict.fromkeys(names, "A caption."),
-        "config": config,
+        "config": without_slides,
         "sources": {"cornell1999": inventory["cornell1999"]},
         "comparisons": {row["comparison"]: row["verdict"] == "awaited" for row in verdicts},
         "entries": {row["entry"]: bool(row["holds"]) for row in ledger},

@@ -15,22 +15,20 @@ import pytest
 import yaml
 
 from planarimpact import continuum, lumped, models
-from stronge1994 import csv_tables, curve_names, plan, reference_data
+from stronge1994 import csv_tables, curve_names, plan
 from stronge1994.figures.inelastic import curves as inelastic
 from stronge1994.figures.shared.curves import beside, solving
 from stronge1994.judging import compare
 from stronge1994.judging import rows as judging_rows
 from stronge1994.ledger import checking
-from stronge1994.ledger import entries as ledger_entries
 from stronge1994.plan import config as configuration
 from stronge1994.verdict_tables.verdict_table import FAILS
-from tests.workflow.project import ROOT
+from tests.workflow.project import ROOT, config, ledger
 
 TABLE = yaml.safe_load((ROOT / "tests/mutations.yaml").read_text(encoding="utf-8"))
 FAULTS = TABLE["faults"]
-CONFIG = configuration.load(ROOT)
-SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
-LEDGER = ledger_entries.load(ROOT / "data/stronge1994/ledger.yaml", SCHEMA)
+CONFIG = config()
+LEDGER = ledger()
 CLAIMS = {name: entry["in_nature"] for name, entry in LEDGER.items() if "in_nature" in entry}
 # What a run judges; an entry of the ledger may have a verdict by its equations, and one in nature.
 JUDGED = {

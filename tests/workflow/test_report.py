@@ -18,9 +18,9 @@ from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.verdict_tables import verdict_table
 from tests.workflow.page import Page
-from tests.workflow.project import ROOT
+from tests.workflow.project import ROOT, config
 
-CONFIG = configuration.load(ROOT)
+CONFIG = config()
 
 
 @pytest.fixture(scope="module")

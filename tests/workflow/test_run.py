@@ -8,12 +8,11 @@ import sys
 import yaml
 
 from stronge1994 import csv_tables
-from stronge1994.plan import config as configuration
 from stronge1994.plan import figures
 from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
-from tests.workflow.project import ROOT, copy_of
+from tests.workflow.project import ROOT, config, copy_of
 
-FIGURES = list(configuration.load(ROOT)["figures"])
+FIGURES = list(config()["figures"])
 SLIDES = figures.with_trait("slide")
 
 
