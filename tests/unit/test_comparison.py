@@ -14,7 +14,7 @@ from stronge1994.judging.distances import (
     vertex_residuals,
 )
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import limits_of_regimes
+from stronge1994.judging.points import PARTS, limits_of_regimes, points
 from stronge1994.judging.verdicts import VISIBLE_SHIFT, judge
 from stronge1994.verdict_tables.verdict_table import Verdict
 
@@ -104,7 +104,8 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, sigma_values
     for sigmas in (0.0, 0.5, 1.0):
         # Moved back by two sigmas the points are still on one side of the curve, or on the other.
         noticed = Verdict.AGREES if high < VISIBLE_SHIFT - sigmas else Verdict.INCONCLUSIVE
-        assert verdict_at(sigmas) == (noticed if sigmas < high else Verdict.DIVERGES)
+        wanted = noticed if sigmas < high else Verdict.DIVERGES
+        assert verdict_at(sigmas) == verdict_at(-sigmas) == wanted
     fact = {"kind": "computed"}
     residuals = Residuals(np.zeros(number), np.zeros(number), np.zeros(number))
     assert judge({}, fact, Measured("x", residuals, ["y"] * number), 0.01) == Verdict.RIGHT
@@ -177,6 +178,29 @@ def test_limits_of_regimes_are_those_of_the_solver(zeta2, e):
     """They are worked out apart, so that no judge asks what it judges."""
     limits = limits_of_regimes(3.5, zeta2, e)
     assert limits == pytest.approx([zeta2, lumped.slip_throughout_limit(3.5, zeta2, e)], rel=1e-14)
+
+
+def test_a_comparison_is_of_the_points_in_its_regime_and_with_its_labels(tmp_path):
+    """A point at a limit is in the part above it; the axis may be the angle of the same impact."""
+    source = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.7, "friction": 0.2}
+    first, last = limits_of_regimes(3.5, 1.21, 0.7)
+    near = [0.0, first * 0.99, first, last * 0.99, last, 9.0]
+    for column, unit, x in (
+        ("incidence", "1", near),
+        ("angle", "deg", np.degrees(np.arctan(0.2 * np.array(near)))),
+    ):
+        axes = {"x": {"column": column, "unit": unit, "sigma": 1, "range": [0, 90]}}
+        axes["y"] = {"column": "w", "unit": "1", "sigma": 1, "range": [0, 9]}
+        path = tmp_path / f"{column}.csv"
+        rows = [
+            f"{place!r},{k},{'me' if k % 3 else 'you'}" for k, place in enumerate(map(float, x))
+        ]
+        path.write_text("\n".join([f"{column} [{unit}],w [1],reader", *rows]))
+        known = {"kind": "computed", "path": str(path), "labels": ["reader"], **axes}
+        known["parameters"] = source
+        for part, wanted in zip(PARTS, ([0, 1], [2, 3], [4, 5]), strict=True):
+            assert points({"regime": part}, known)["w [1]"].tolist() == wanted
+        assert points({"points": {"reader": "you"}}, known)["w [1]"].tolist() == [0, 3]
 
 
 def test_a_contraction_is_of_the_curves_that_it_names():

@@ -61,7 +61,10 @@ def test_a_cell_says_the_largest_difference_and_the_distance_of_all_points():
     (item,) = cells(row(SOLVED, "right"), two)[0]
     assert (item.points, item.size, item.sigmas) == ("2", "5e-01", "3")
     far = row(OTHERS, "untested difference") | {"points": "12", "rms [axis units]": "0.04"}
-    (item,) = cells(row(OTHERS, "agrees"), far)[2]
-    rms = ((4 * 0.02**2 + 12 * 0.04**2) / 16) ** 0.5
-    assert (item.points, item.size, item.unit) == ("16", f"{rms:.2g}", "mu v2(0)")
-    assert (item.sigmas, item.verdict) == ("2", "untested difference")
+    # Another series may have another unit: it counts for the points and the sigmas only.
+    spin = {"reference": "maw1976/spin", "unit": "1/s", "rms [axis units]": "9", "points": "16"}
+    other = row(OTHERS, "agrees") | spin | {"rms [sigma]": "3"}
+    (item,) = cells(row(OTHERS, "agrees"), far, other)[2]
+    rms, sigmas = ((4 * 0.02**2 + 12 * 0.04**2) / 16) ** 0.5, ((16 * 2**2 + 16 * 3**2) / 32) ** 0.5
+    assert (item.points, item.size, item.unit) == ("32", f"{rms:.2g}", "mu v2(0)")
+    assert (item.sigmas, item.verdict) == (f"{sigmas:.2g}", "untested difference")

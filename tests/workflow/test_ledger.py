@@ -120,7 +120,7 @@ def test_a_check_that_crashes_no_longer_holds(solver, name, problem, monkeypatch
     assert (row["holds"], row["problem"]) == ("no", problem)
 
 
-def test_the_second_verdict_never_changes_the_first(rows):
+def test_the_second_verdict_never_changes_the_first(rows, measured, monkeypatch):
     """Counts of the first are those without it, and each entry keeps what its equations gave."""
     with_both = Counter(row["verdict"] for row in rows.values())
     assert with_both == Counter(entry["verdict"] for entry in ENTRIES.values())
@@ -130,6 +130,9 @@ def test_the_second_verdict_never_changes_the_first(rows):
     name = "restitution-leaves-peak"
     alone = checking.check({name: by_equations(name)})[0]
     assert all(rows[name][key] == alone[key] for key in alone if "nature" not in key)
+    monkeypatch.setattr(finding, "judge", lambda *_: "off")
+    (off,) = checking.check({name: ENTRIES[name]}, measured)
+    assert (off["holds"], off["problem"]) == ("no", "off")
 
 
 @pytest.fixture(scope="module")
