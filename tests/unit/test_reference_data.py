@@ -1,27 +1,18 @@
 """What may stand in data/ is read as it is meant; tests/refusals has what is refused."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from stronge1994 import reference_data
 from stronge1994.judging import points
-from stronge1994.plan import config as configuration
+from tests.workflow.project import config, sources
 
-ROOT = Path(__file__).parents[2]
-SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/source.schema.yaml")
 AXES = {
     "x": {"column": "incidence", "unit": "1", "sigma": 0.02, "range": [0, 20]},
     "y": {"column": "velocity", "unit": "1", "sigma": 0.01, "range": [-5, 20]},
 }
 X, Y = "incidence [1]", "velocity [1]"
 HEADER = f"{X},{Y}\n"
-
-
-@pytest.fixture(scope="module")
-def inventory():
-    return reference_data.load_all(ROOT / "data", SCHEMA)
 
 
 def read(folder, text):
@@ -67,14 +58,14 @@ SLIDING = "chung_ooi2011/rebound"
 
 def judged(reference):
     """Comparisons of the config with a series."""
-    entries = configuration.load(ROOT)["comparisons"].values()
+    entries = config()["comparisons"].values()
     return [entry for entry in entries if entry.get("reference") == reference]
 
 
-def test_sigmas_do_not_come_from_the_points_they_judge(inventory):
+def test_sigmas_do_not_come_from_the_points_they_judge():
     """The velocity of the finite elements: from points that nothing looks at."""
     limits = points.limits_of_regimes(3.5, 1.2143, 1.0)
-    sheet = inventory["chung_ooi2011"]["series"]["rebound"]
+    sheet = sources()["chung_ooi2011"]["series"]["rebound"]
     columns = reference_data.arrays(sheet)
     x, w = (columns[reference_data.column_name(sheet[axis])] for axis in "xy")
     off = (w - (x - 7.0))[x > limits[1]]
@@ -90,9 +81,9 @@ READ_AGAIN = [
 
 
 @pytest.mark.parametrize(("source", "name", "near"), READ_AGAIN)
-def test_sigmas_are_the_spread_of_readings_of_which_one_is_judged(source, name, near, inventory):
+def test_sigmas_are_the_spread_of_readings_of_which_one_is_judged(source, name, near):
     """Readings of one point are at most `near` apart; what only one person read tells nothing."""
-    sheet = inventory[source]["series"][name]
+    sheet = sources()[source]["series"][name]
     columns = reference_data.arrays(sheet)
     reader = columns["digitiser"]
     xy = np.transpose([columns[reference_data.column_name(sheet[axis])] for axis in "xy"])

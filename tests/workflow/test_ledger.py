@@ -8,23 +8,19 @@ import csv
 import math
 import re
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 import pytest
 from markupsafe import escape
 
 from planarimpact import continuum, lumped, noncollinear
-from stronge1994 import reference_data
-from stronge1994.ledger import checking, contact, entries, finding, outcome
+from stronge1994.ledger import checking, contact, finding, outcome
 from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
 from stronge1994.printed import dynamics, slip
+from tests.workflow.project import ROOT, ledger
 
-ROOT = Path(__file__).parents[2]
-FILE = "data/stronge1994/ledger.yaml"
-SCHEMA = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
-ENTRIES = entries.load(ROOT / FILE, SCHEMA)
+ENTRIES = ledger()
 EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
 CLAIMS = {name: entry["in_nature"] for name, entry in ENTRIES.items() if "in_nature" in entry}
 JUDGED_CLAIMS = [name for name, claim in CLAIMS.items() if "check" in claim]
