@@ -12,7 +12,7 @@ from stronge1994.explorer import page
 FOLDER = Path(__file__).parents[2] / "workflow/explorer"
 # Those that do not look at their page as they are loaded.
 SCRIPTS = ["solver", "continuum", "check", "models", "flight", "charts", "arrows", "patch"]
-SCRIPTS += ["diagram", "words"]
+SCRIPTS += ["diagram", "words", "files"]
 # What is drawn is kept in elements that nobody sees, by their ids.
 BASE = f"""
 const CONTINUUM_ERROR = {page.CONTINUUM_ERROR};

@@ -1,10 +1,12 @@
 """The models of the explorer and their drawings say what the package solves."""
 
+import io
 import json
 import math
 import re
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from planarimpact import Regime, continuum, lumped, rigid
@@ -113,29 +115,42 @@ def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
 
 
 # Zones of the patch from outside, and friction by stress: 2 pi times the integral of r times
-# stress, which Abel's transform keeps.
-PATCH = f"""({{ contact, e }}, times) => times.map((time) => {{
+# stress, which Abel's transform keeps. Then the way of each arrow, and how far each spring leans.
+PATCH = f"""(impact, times, sign) => times.map((time) => {{
+  const {{ contact, e }} = impact;
   const row = models.at(contact, time), motion = continuum.normal(e, contact.style);
   const edge = Math.sqrt(row.limit.square), n = 1000;
   const radii = Array.from({{ length: n }}, (_, i) => ((i + 0.5) / n) * edge);
   const {{ stress }} = {node.expression("patch", "return { show,", "return { stress, show,")};
   const values = stress(row.density, motion.radius / motion.springs, edge, radii, 1);
   const sum = radii.reduce((sum, r, i) => sum + r * values[i], 0) * edge / n;
-  const zones = patch.show(contact.style, row, 1, motion);
-  return [2 * sum / motion.largest, row.friction, zones.map((one) => [one.slip, one.outer])];
+  const zones = patch.show(contact.style, row, sign, motion);
+  diagram.show(impact, row, time, true);
+  const lines = [drawn[`patch-${{contact.style}} .stress`].d, drawn["diagram-row-springs"].d];
+  const ends = lines.map((line) => line.split("M").map((one) => one.match(/-?[0-9.]+/g) ?? []));
+  return [2 * sum / motion.largest, row.friction, zones.map((one) => [one.slip, one.outer]),
+    ends[0].filter((one) => one.length === 3).map(([tail, , neck]) => neck - tail),
+    ends[1].slice(1).map((line) => line.at(-2) - line[0])];
 }})"""
 
 
 @pytest.mark.parametrize(("e", "style"), [(1, "elastic"), (0.6, "viscous"), (0.6, "plastic")])
 def test_the_patch_shows_friction_and_where_it_slips(e, style, scripts):
     x, times = math.tan(math.radians(30)) / 0.4, [0.3, 0.7, 1, 1.2, 1.5]
-    shown = scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times})")
+    shown, mirrored = (
+        scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times}, {sign})") for sign in (1, -1)
+    )
     ours, friction = np.transpose([row[:2] for row in shown])
+    # Positive friction is against the motion before; the feet of springs are left behind.
+    for one, other in zip(shown, mirrored, strict=True):
+        for moved in map(sum, one[3:]):
+            assert abs(moved) > 1 and moved * one[1] < 0
+        assert sum(other[3]) == pytest.approx(-sum(one[3])) and other[4] == one[4]
     assert np.abs(friction).max() > 0.3
     assert np.abs(ours - friction).max() < 0.03 * np.abs(friction).max()
     if style == "elastic":
         theirs = continuum.history(x, *SOLID)
-        for time, (_, _, zones) in zip(times, shown, strict=True):
+        for time, (_, _, zones, *_) in zip(times, shown, strict=True):
             radius = np.interp(time, theirs.time, theirs.contact_radius)
             stick = np.interp(time, theirs.time, theirs.stick_radius)
             slip, inner = zones[-1]
@@ -152,20 +167,29 @@ CHART = """(draw, impact, ...more) => {
 }"""
 
 
-def curve(markup, style):
-    """Vertices of a curve in the units of the axes of its chart, by their labels."""
+def scales(markup):
+    """Functions from places in a chart to the units of its axes, by their labels."""
     labels = re.findall(
         r'text-anchor="(\w+)" x="(\S+)"\s+y="(\S+)">(.*?)<', markup.replace("\u2212", "-")
     )
     along = np.array([(x, value) for anchor, x, _, value in labels if anchor == "middle"], float)
     up = np.array([(y, value) for anchor, _, y, value in labels if anchor == "end"], float)
     up[:, 0] -= 4  # from the foot of a label to its middle
+    return [np.poly1d(np.polyfit(*axis.T, 1)) for axis in (along, up)]
+
+
+def curve(markup, style):
+    """Vertices of a curve in the units of the axes of its chart."""
     (points,) = re.findall(rf'class="{style}" points="(.*?)"', markup)
     columns = np.transpose([point.split(",") for point in points.split()]).astype(float)
-    return [
-        np.polyval(np.polyfit(*axis.T, 1), column)
-        for axis, column in zip((along, up), columns, strict=True)
-    ]
+    return [scale(column) for scale, column in zip(scales(markup), columns, strict=True)]
+
+
+def bands(markup):
+    """Starts and ends of the bands of a chart, in the units of its axis, and their styles."""
+    found = re.findall(r'"band (\w+)" x="(\S+)" width="(\S+)"', markup)
+    along = scales(markup)[0]
+    return [(along(float(x)), along(float(x) + float(w)), style) for style, x, w in found]
 
 
 def assert_near(values, wanted):
@@ -193,9 +217,48 @@ def test_curves_against_incidence_are_those_of_the_package(view, scripts):
             "energy": 2 * share**2 * found.dissipation,
         }[view]
         assert_near(values, wanted)
+    # Regimes of the model that is looked at closer.
+    edges = np.array([0.0, SOLID[1], lumped.slip_throughout_limit(*SOLID, e), np.inf])
+    edges = np.minimum(edges, 13) if view == "velocity" else np.degrees(np.arctan(mu * edges))
+    *places, kinds = zip(*bands(markup), strict=True)
+    np.testing.assert_allclose(places, [edges[:-1], edges[1:]], atol=1e-6)
+    assert kinds == ("stick", "mixed", "slip")
     if view == "forces":
         place, values = curve(markup, "normal")
         assert_near(values, np.cos(np.radians(place)))
+
+
+SAVED = """(impact, angle) => {
+  const styles = models.chosen(impact, models.TOGGLES), state = { angle, poisson_ratio: 0.3 };
+  const drawn = charts.incidence({ setAttribute() {} }, 500, impact, "forces", styles, 13);
+  return files.csv(impact, state, models.outcomes(styles, impact), drawn);
+}"""
+
+
+def test_the_numbers_saved_are_those_of_the_package(scripts):
+    x, e, mu = 2.0, 0.5, 0.3
+    saved = scripts.evaluate(f"({SAVED})({impact('lumped', x, e, mu=mu)}, 31)")
+    notes = dict(re.findall(r"# (.*) = (\S+)\n", saved))
+    assert [float(notes.pop(name)) for name in list(notes)[:7]] == [31, mu, e, 0.3, *SOLID, x]
+    table = pd.read_csv(io.StringIO(saved), comment="#")
+    every, angle = (table.pop(name).to_numpy() for name in table.columns[:2])
+    assert np.abs(angle - np.degrees(np.arctan(mu * every))).max() < 1e-9
+    names = "the paper’s lumped model", "rigid limit", "continuum, viscous", "continuum, plastic"
+    units = "v1(tf)/(mu v2(0)) [1]", "largest F1/(mu largest F2) [1]"
+    units += ("work of friction/(mu^2 m2 v2(0)^2) [1]",)
+    assert list(table) == [f"{name}: largest F1 / largest F2 x cos(theta) [1]" for name in names]
+    for name, column, style in zip(
+        names, table, ("lumped", "rigid", *continuum.LOSSES), strict=True
+    ):
+        found = packaged(style, x, *SOLID, e)
+        wanted = found.velocity, found.peak_friction, found.dissipation
+        said = [float(notes[f"{name}: {unit}"]) for unit in units]
+        near = 1e-9 if style in ("lumped", "rigid") else write_explorer.CONTINUUM_ERROR
+        assert said == pytest.approx(wanted, abs=near)
+        some = slice(None, None, 12)
+        peak = mu * packaged(style, every[some], *SOLID, e).peak_friction
+        peak /= np.hypot(1, mu * every[some])
+        assert np.abs(table[column][some] - peak).max() <= mu * write_explorer.CURVE_ERROR
 
 
 # A rubber ball whose last slip runs forwards or backwards, by its restitution.
@@ -262,6 +325,12 @@ def test_the_closer_look_shows_the_contact_in_time(rubber):
     phases = evaluate("impact.phases.map((one) => [one.start, one.sticks ? 0 : one.side])")
     assert np.abs(np.array(phases)[:, 0] - starts).max() < 1e-9
     assert [side for _, side in phases] == [1, 0, 1 if e == 0.3 else -1]
+    way, share = "forwards" if e == 0.3 else "backwards", 100 * found.velocity[-1] / INCIDENCE
+    assert evaluate("words.sentence(impact)").replace("\u00a0", " ") == (
+        "The paper’s lumped model: the contact slips forwards first, then sticks, then slips "
+        f"{way}. The contact point leaves {'forwards' if share > 0 else 'backwards'}, with "
+        f"{abs(share):.{int(abs(share) < 9.5)}f} % of the tangential velocity that it came with."
+    )
     # The microscope: in the picture, x runs to the right, y down.
     chosen = slice(100, -100, 250)
     t, normal, friction = found.time[chosen], found.normal[chosen], found.friction[chosen]
