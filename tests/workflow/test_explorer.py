@@ -272,6 +272,9 @@ def test_the_closer_look_goes_as_far_as_the_contact_point(show):
     go(tab, f"angle=40&friction=0.4&restitution=1{SOLID}")
     click(tab, "do-micro")
     assert text(tab, "patch-continuum-words") == "middle sticks, edge slips"
+    zones = "[...document.querySelectorAll('#patch-continuum circle.zone')]"
+    sticks = tab.evaluate(f"{zones}.map((one) => one.classList.contains('sticks'))")
+    assert sticks[:2] == [False, True]  # from outside
 
 
 def test_a_link_leads_back_to_an_impact(show):

@@ -52,6 +52,8 @@ def test_a_bounce_keeps_what_mechanics_keeps(scripts):
             assert (after["up"] > 0) == (wall == "floor")
             turns = before["along"] * after["along"] < 0 and abs(after["along"]) > 0.005
             assert ("turns back" in part["said"]) == turns
+            angle = math.degrees(math.atan2(abs(after["along"]), after["up"]))
+            assert f" at {angle:.0f}° to" in part["said"]
             # The package says the same of the contact point.
             unit = given["friction"] * abs(before["up"])
             point, point_after = (one["along"] + arm * one["spin"] for one in (before, after))

@@ -299,7 +299,8 @@ MICROSCOPE = """(times) => times.map((time) => {
   diagram.show(impact, models.at(impact.contact, time), time, true);
   const part = (name) => drawn[`diagram-${name}`];
   const places = ["body", "particle", "origin"].map((name) => part(name).transform);
-  return [...places, ...["friction-force", "normal-force", "velocity"].map((name) => part(name).d)];
+  const drawings = ["friction-force", "normal-force", "velocity", "limit"];
+  return [...places, ...drawings.map((name) => part(name).d)];
 })"""
 
 
@@ -318,9 +319,12 @@ def arrow(outline):
 
 def test_the_closer_look_shows_the_contact_in_time(rubber):
     e, found, evaluate = rubber
-    for chart, style in (("forces", "normal"), ("forces", "friction"), ("velocity", "velocity")):
-        time, values = curve(evaluate(f"({CHART})('{chart}', impact)"), style)
-        assert_near(values, np.interp(time, found.time, getattr(found, style)))
+    wanted = {"normal": found.normal, "limit": -found.normal, "friction": found.friction}
+    for style, column in (wanted | {"velocity": found.velocity}).items():
+        markup = evaluate(f"({CHART})('{'velocity' if style == 'velocity' else 'forces'}', impact)")
+        time, values = curve(markup, style)
+        assert_near(values, np.interp(time, found.time, column))
+        assert ("\u2190" in markup) == (e == 0.9)  # slip backwards
     starts = [event.time for event in found.events if event.kind in ("stick", "slip")]
     phases = evaluate("impact.phases.map((one) => [one.start, one.sticks ? 0 : one.side])")
     assert np.abs(np.array(phases)[:, 0] - starts).max() < 1e-9
@@ -337,13 +341,15 @@ def test_the_closer_look_shows_the_contact_in_time(rubber):
     rows = evaluate(f"({MICROSCOPE})({t.tolist()})")
     moved = [[re.findall(r"-?[\d.]+", one) for one in row[:3]] for row in rows]
     body, particle, origin = np.array(moved, float).transpose(1, 0, 2)
-    rubs, presses, velocity = np.transpose([list(map(arrow, row[3:])) for row in rows], (1, 0, 2))
+    rubs, presses, velocity = np.transpose([list(map(arrow, row[3:6])) for row in rows], (1, 0, 2))
+    ends = np.array([re.findall(r"[-\d.]+", row[6]) for row in rows], float)
     assert_drawn(body[:, 0] - particle[:, 0], found.spring[chosen])
     assert_drawn(body[:, 0] - origin[:, 0], t)
     back = t > 1
     assert_drawn(body[:, 1] - 170, np.where(back, 1 - e**2 * (1 - normal), normal))
-    assert_drawn(-rubs[:, 0], friction, missing=3)
-    assert_drawn(-presses[:, 1], normal, missing=3)
+    # All forces and the limit of friction have one scale.
+    drawn = [-rubs[:, 0], -presses[:, 1], (ends[:, 2] - ends[:, 0]) / 2]
+    assert_drawn(np.array(drawn), np.array([friction, normal, normal]), missing=3)
     approach = np.cos(math.pi / 2 * np.where(back, 1 + (t - 1) / e, t)) * np.where(back, e, 1)
     assert_drawn(velocity, np.stack([FRICTION * found.velocity[chosen], approach], axis=1))
 
