@@ -3,14 +3,27 @@
 from html.parser import HTMLParser
 
 
+def squeezed(text):
+    """A text without white space."""
+    return "".join(text.split())
+
+
+def flat(text):
+    """Words of a piece of HTML, without white space."""
+    return squeezed("".join(Page(text).words))
+
+
 class Page(HTMLParser):
-    """Anchors, links, resources, words, controls and the bar of all pages."""
+    """Anchors, links, resources, words, controls, tables and the bar of all pages.
+
+    A table is a list of rows, a row a list of cells, and a cell its words without white space.
+    """
 
     def __init__(self, text):
         super().__init__()
         self.ids, self.links, self.resources, self.words = [], [], [], []
-        self.bar, self.controls = [], {}
-        self._in_bar, self._select = False, None
+        self.bar, self.controls, self.tables = [], {}, []
+        self._in_bar, self._select, self._in_cell = False, None, False
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -25,14 +38,24 @@ class Page(HTMLParser):
         self.resources += [found["href"]] if tag == "link" else []
         if tag in ("input", "select"):
             self._select = self.controls[found.get("id", "")] = {**found, "options": []}
+        elif tag == "table":
+            self.tables.append([])
+        elif tag == "tr":
+            self.tables[-1].append([])
+        elif tag in ("td", "th"):
+            self.tables[-1][-1].append("")
+            self._in_cell = True
         elif tag == "option":
             self._select["options"].append(found.get("value"))
 
     def handle_endtag(self, tag):
         self._in_bar &= tag != "nav"
+        self._in_cell &= tag not in ("td", "th")
 
     def handle_data(self, data):
         self.words.append(data)
+        if self._in_cell:
+            self.tables[-1][-1][-1] += squeezed(data)
 
     @property
     def text(self):

@@ -9,18 +9,22 @@ import numpy as np
 import pytest
 import yaml
 
-from stronge1994 import csv_tables, reference_data
+from stronge1994 import csv_tables, curve_names, reference_data
+from stronge1994.curve_names import is_of_paper
 from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.figures.shared.drawing.beside import MODELS
-from stronge1994.pages import key_numbers, note
+from stronge1994.formulas import mathematical, number
+from stronge1994.pages import key_numbers, ledger_page, names, note
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
-from stronge1994.verdict_tables import verdict_table
-from tests.workflow.page import Page
+from stronge1994.verdict_tables import figure_table, verdict_table
+from tests.workflow.page import Page, flat, squeezed
 from tests.workflow.project import ROOT, config
 
 CONFIG = config()
+MU_V2 = " [mu v2(0)]"
+TOLERANCE = f"tolerance{MU_V2}"
 
 
 @pytest.fixture(scope="module")
@@ -90,21 +94,99 @@ def test_every_verdict_figure_and_source_is_there(pages, tables):
     assert f"numpy {np.__version__}" in stated_in
 
 
-def test_rows_say_what_was_allowed_and_every_known_difference_is_listed(pages, tables):
-    text, verdicts = pages("report"), tables("verdicts")
-    for row in verdicts:
-        shown = text[text.index(f'<tr id="{row["comparison"]}"') :].split("</tr>")[0]
-        allowed = write_report.bounds(row["allowed"])
-        assert f'data-label="to agree">{allowed}' in shown.replace("\n", "")
-        assert f">{row['verdict']}<" in shown and write_report.bounds(row["regression"]) in shown
-        measured = row["chi^2"] or row["max [sigma]"]
-        assert measured in shown or "e" in measured or row["found"], row["comparison"]
-    known = [row for row in verdicts if row["verdict"] in verdict_table.DIFFERENCES]
-    listed = text[text.index('<p id="known">') :].split("</details>")[0].split("<tr>")[2:]
-    for row, line in zip(known, listed, strict=True):
-        assert f'<a href="#{row["comparison"]}">' in line
-        bound = line.split('data-label="bound">')[1].split("</td>")[0]
-        assert row["regression"] and bound == write_report.bounds(row["regression"])
+def three(cell):
+    """A number of a table with three digits."""
+    return f"{float(f'{float(cell):.3g}'):g}" if cell else ""
+
+
+def in_words(row):
+    """What was measured, and both bounds, as a report writes them."""
+    points = row["points"] and not row["found"]
+    measured = f"rms {row['rms [sigma]']}, max {row['max [sigma]']} sigma" if points else ""
+    if row["found"]:
+        value, _, unit = row["stated"].partition(" ")
+        measured = f"{row['found']} (stated {value}{curve_names.unit(unit)})"
+    elif row["p"]:
+        measured = f"χ² {row['chi^2']} of {row['degrees of freedom']}, p = {row['p']}"
+    elif points and row["question"] == "as printed":
+        unit = curve_names.unit(row["unit"])
+        measured = f"rms {row['rms [axis units]']}, max {row['max [axis units]']} {unit}"
+    return measured, *(
+        row[key].replace("<=", "≤").replace("chi2", "χ²") for key in ("allowed", "regression")
+    )
+
+
+def test_rows_of_verdicts_and_of_known_differences_are_whole(pages, tables):
+    page, verdicts = Page(pages("report")), {row["comparison"]: row for row in tables("verdicts")}
+    told, known = [], []
+    maths = ledger_page.linked_maths({row["entry"] for row in tables("ledger")})
+    for name in [name for name in page.ids if name in verdicts]:
+        row, stated = verdicts[name], CONFIG["comparisons"].get(name, {})
+        title, (measured, allowed, regression) = names.comparison(name), in_words(row)
+        sigmas, note = row["degrees of sigma"], stated.get("documented", row)
+        cause = names.entry(note["entry"]) if "entry" in note else note.get("note", "")
+        why = f"Ledger: {cause}" if "entry" in note else names.sentence(cause)
+        cells = [
+            f"{row['verdict']} {row['question']}",
+            names.sentence(title) + (row["reference"] and names.series(row["reference"])),
+            measured + (sigmas and f" (sigmas of {sigmas})"),
+            allowed + (regression and f" regression: {regression}"),
+            f"{why}. {names.sentence(stated.get('reason', row['reason']))}.".removeprefix(". "),
+        ]
+        if row["points"] and not row["found"] and row["question"] != "as printed":
+            cells[2] += f" vertically rms {three(row['rms [axis units]'])}"
+        told.append([flat(maths(cell)) for cell in cells])
+        if row["verdict"] in verdict_table.DIFFERENCES:
+            kind = row["verdict"].partition(" ")[0]
+            first = f"{names.figure(row['figure'])}, {title}", row["question"], f"{kind}: {cause}"
+            known.append([flat(maths(cell)) for cell in (*first, measured, regression)])
+    shown = {head: [] for head in ("verdict", "comparison")}
+    for head, *rows in page.tables:
+        shown.get(head[0], []).extend(rows)
+    assert told == shown["verdict"] and len(told) == len(verdicts)
+    assert sorted(known) == sorted(shown["comparison"])
+
+
+def test_the_row_of_a_figure_is_the_same_on_both_pages(pages, tables):
+    rows = figure_table.of_run(tables("verdicts"))
+    named = [str, names.entry, names.source, names.source]
+    for page, wanted in (("report", rows), ("note", [r for r in rows if is_of_paper(r.figure)])):
+        (shown,) = [own for head, *own in Page(pages(page)).tables if head[1] == "solvedright"]
+        for row, (title, *cells) in zip(wanted, shown, strict=True):
+            assert title == squeezed(names.figure(row.figure))
+            for items, cell, name in zip(row[1:], cells, named, strict=True):
+                for item, part in zip(items, cell.split(";") if cell else [], strict=True):
+                    size = flat(number(item.size)) + flat(mathematical(curve_names.unit(item.unit)))
+                    words = [squeezed(name(item.name)), item.points, size, three(item.sigmas)]
+                    if item.size == item.sigmas == "0":
+                        words[2:] = ["nodifference"]
+                    between = r"\D*".join(["", *map(re.escape, words), ""])
+                    assert re.fullmatch(between, part, flags=re.I), item
+                    assert items is not row.others or part.endswith(squeezed(item.verdict))
+
+
+def test_which_model_is_told_for_each_error_allowed(pages, tables):
+    page = Page(pages("report"))
+    (shown,) = [rows for head, *rows in page.tables if head[0] == "impact"]
+    answers, told, wanted, text = tables("which_model"), [], [], squeezed(page.text)
+    errors = list(dict.fromkeys(flat(number(row[TOLERANCE])) for row in answers))
+    for case, allowed, *cells in shown:
+        first, _, last = allowed.removeprefix("errorupto").partition("to")
+        span = slice(errors.index(first), errors.index(last or first) + 1)
+        told += [[case, error, *cells] for error in errors[span]]
+    for row in answers:
+        case = f"e={three(row['restitution [1]'])}" + (row["loss"] and f",{row['loss']}")
+        wanted.append([case + "loss" * bool(row["loss"]), flat(number(row[TOLERANCE]))])
+        for batch in (1, 100, 10_000):
+            model, error, time = (
+                row[f"{key}_{batch}{unit}"]
+                for key, unit in (("model", ""), ("max_velocity", MU_V2), ("whole_time", " [s]"))
+            )
+            numbers = f", {number(error)}, {1e6 * float(time):g} µs" if error else ""
+            wanted[-1].append(flat(model + numbers))
+        spread, stick = (row[f"input_spread{kind}{MU_V2}"] for kind in ("", "_stick"))
+        assert f"{spread}µv2(0)({case};{stick}ifthecontactsticksfirst)" in text
+    assert told == wanted
 
 
 @pytest.mark.parametrize("name", CONFIG["figures"])
@@ -115,6 +197,9 @@ def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, ta
     assert base64.b64encode(svg).decode() in shown
     mine = [row["comparison"] for row in tables("verdicts") if row["figure"] == name]
     assert re.findall(r'<tr id="([^"]*)"', shown) == mine
+    counted = Page(shown).text.split(f"{len(mine)} comparison", 1)[1].split(" verdict ")[0]
+    counts = {words[:5]: int(count) for count, words in re.findall(r"(\d+) ([a-z ]+)", counted)}
+    assert counts == Counter(row["verdict"][:5] for row in tables("verdicts") if row["figure"] == name)
     told = pages("sources")
     told = told[told.index(f'<pre id="config-{name}"') :].split("</pre>")[0]
     config = configuration.with_values(CONFIG)
