@@ -9,6 +9,7 @@ import math
 import re
 from collections import Counter
 from pathlib import Path
+from urllib.parse import parse_qsl
 
 import numpy as np
 import pytest
@@ -18,8 +19,9 @@ from planarimpact import continuum, lumped, noncollinear
 from stronge1994 import reference_data
 from stronge1994.ledger import checking, contact, entries, finding, outcome
 from stronge1994.ledger.finding import Finding
-from stronge1994.pages import ledger_page
+from stronge1994.pages import ledger_page, names
 from stronge1994.printed import dynamics, slip
+from tests.workflow.page import flat, squeezed
 
 ROOT = Path(__file__).parents[2]
 FILE = "data/stronge1994/ledger.yaml"
@@ -183,11 +185,49 @@ def test_the_head_of_the_page_names_all_that_is_wrong_by_cause(rows, tmp_path):
     assert order == sorted(order, key=list(outcome.GRADES).index)
 
 
-def test_the_page_has_every_entry_and_says_what_holds_instead(first_run):
+# What an article says in turn, behind which words: columns of the run.
+SAID = [
+    ("The paper says:", "says"),
+    ("Instead:", "correction"),
+    ("Derivation:", "derivation"),
+    ("Cause:", "because"),
+    ("Where it holds:", "range"),
+    ("Reading:", "reading"),
+    ("Why not testable:", "why"),
+    ("Test:", "test"),
+    ("ound:", "found"),
+    ("is right if this is", "confirms"),
+    ("The verdict holds while this lies from", "between"),
+    ("The corrected formula is off by", "corrected"),
+    ("In two continua:", "nature"),
+    ("Test:", "nature_test"),
+    ("Found:", "nature_found"),
+    ("is true with a loss if its number is", "nature_true_if"),
+]
+
+
+def test_the_page_says_of_every_entry_what_the_run_found(first_run, rows):
     page = (first_run[0] / "figures/ledger.html").read_text()
     articles = {text.split('"')[0]: text for text in page.split('<article id="')[1:]}
-    assert set(articles) == set(ENTRIES)
-    assert all("Instead:" in articles[name] for name in ENTRIES if "derivation" in ENTRIES[name])
+    assert list(articles) == list(rows) and set(rows) == set(ENTRIES)
+    maths = ledger_page.linked_maths(rows)
+    for name, row in rows.items():
+        text = flat('<article id="' + articles[name])
+        nature = row["in_nature"] and f"in two continua: {row['in_nature']}"
+        head = row["where"], row["verdict"], row["grade"], nature, names.entry(name)
+        assert text.startswith(flat(maths("".join(head))))
+        for words, column in SAID:
+            if row[column]:
+                _, said, text = text.partition(squeezed(words) + flat(maths(row[column])))
+                assert said, (name, column)
+    links = re.findall(r'explorer.html#([^"]+)"(.*?)</p>', page, flags=re.S)
+    assert len(links) == len(ledger_page.IN_EXPLORER)
+    for link, words in links:
+        state = dict(parse_qsl(link))
+        sphere = {"mass_ratio": f"{contact.SPHERE[0]}", "poisson_ratio": "0.3", "of": "lumped"}
+        assert sphere.items() <= state.items()
+        told = "{angle}°,μ={friction}ande={restitution}.".format(**state)
+        assert flat("<a" + words).endswith(told)
 
 
 def test_an_entry_that_no_longer_holds_is_named_on_the_page(rows, monkeypatch, tmp_path):

@@ -15,6 +15,7 @@ from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.figures.shared.drawing.beside import MODELS
 from stronge1994.formulas import mathematical, number
+from stronge1994.ledger import finding
 from stronge1994.pages import key_numbers, ledger_page, names, note
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
@@ -334,6 +335,10 @@ def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, invento
     for verdict in verdict_table.ORDER:
         assert numbers[f"rows.{verdict}"] == verdicts[verdict]
     assert numbers["rows.judged"] == verdicts.total() - verdicts["as before"]
+    ledger = tables("ledger")
+    counts = Counter(row[key] for row in ledger for key in ("verdict", "grade") if row[key])
+    assert {name: numbers[f"ledger.{name}"] for name in counts} == counts
+    assert numbers["ledger.causes"] == len({row["cause"] for row in ledger} - {""})
     rows = {row["comparison"]: row for row in tables("verdicts")}
     for model in MODELS:
         row = rows[f"inelastic-{model}-pairs"]
@@ -355,12 +360,17 @@ def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, invento
         assert numbers[f"yielding.{model}.near.max"] == pytest.approx(abs(off[near]).max())
         own = rubber[f"{model}, impacts"]
         share = "tangential_restitution [1]"
-        for kind, half in (("velocity", "velocity alone"), ("spin", "spin alone")):
-            off = own[share] - rubber[half][share]
-            assert numbers[f"rubber.{model}.from_{kind}"] == rms(off)
-            assert numbers[f"rubber.{model}.from_{kind}.small"] == rms(off[own[x] <= 2.5])
+        for kind, e_t in (
+            ("distance", reference_data.arrays(inventory["cross2014"]["series"]["impacts"])[share]),
+            ("from_velocity", rubber["velocity alone"][share]),
+            ("from_spin", rubber["spin alone"][share]),
+        ):
+            assert numbers[f"rubber.{model}.{kind}"] == rms(own[share] - e_t)
+            small = (own[share] - e_t)[own[x] <= 2.5]
+            assert numbers[f"rubber.{model}.{kind}.small"] == rms(small)
     for row in tables("in_nature"):
-        assert numbers[f"nature.{row['measure']}.paper"] == float(row["paper"])
+        for model in finding.MODELS:
+            assert numbers[f"nature.{row['measure']}.{model}"] == float(row[model])
 
 
 def test_the_note_s_farthest_pairs_are_so(numbers, first_run, inventory):
@@ -378,24 +388,23 @@ def test_the_note_s_farthest_pairs_are_so(numbers, first_run, inventory):
 # Runs that fail
 
 
-def test_a_failed_run_looks_like_one():
-    """A comparison failed, and a solver crashed."""
-    figures = [*CONFIG["figures"]]
+def test_a_failed_run_looks_like_one(tables):
+    """Comparisons failed, a solver crashed, and an entry of the ledger holds no longer."""
 
     def row(figure, comparison, verdict, **cells):
         cells = {"figure": figure, "comparison": comparison, "verdict": verdict} | cells
         return dict.fromkeys(verdict_table.COLUMNS, "") | cells
 
-    sizes = {"points": "2", "rms [sigma]": "7", "max [sigma]": "9"}
+    figures, sizes = [*CONFIG["figures"]], {"points": "2", "rms [sigma]": "7", "max [sigma]": "9"}
     verdicts = [
-        row("fig6", "fig6-rebound", "wrong", **sizes),
+        row("fig6", "fig6-rebound", "diverges", **sizes),
         row("trade", "trade-solved", "wrong", note="no curves: ArithmeticError: <oh>"),
         *(row(name, f"{name}-solved", "as before") for name in figures if name != "trade"),
     ]
     config = CONFIG | {"slides": ["fig6"]}
     values = {
         "verdicts": verdicts,
-        "ledger": [],
+        "ledger": [entry | {"holds": "no"} for entry in tables("ledger")[:1]] + tables("ledger")[1:],
         "figures": {
             name: write_report.figure(name, b"<svg/>", "Words.", [], verdicts, config)
             for name in figures
@@ -405,18 +414,19 @@ def test_a_failed_run_looks_like_one():
         "n": {},
         "significance": CONFIG["significance"],
         "run": {"date": "Today", "commit": "abc"},
-        "faults": ["wrong: fig6-rebound: max 9"],
+        "faults": ["diverges: fig6-rebound: max 9"],
     }
     page = write_report.page(values, ROOT / "workflow/report/report.html")
-    text = Page(page).text
-    assert text.count(
-        "FAILED 2 comparisons fail. Today, commit abc Fig. 6, rebound is wrong: max 9"
-    )
+    text, entries = Page(page).text, len(values["ledger"])
+    assert (
+        f"FAILED 2 comparisons fail. 1 of {entries} verdicts on the paper no longer hold: Eq. 1 . "
+        "Today, commit abc Fig. 6, rebound diverges: max 9"
+    ) in text
     # What was found is told of a run that passed.
     assert "PASSED" not in text and "What we found" not in text
     # What fails is unfolded.
     table = page[page.index("<details open><summary>2 comparisons:") :].split("</table>")[0]
-    assert '<tr id="fig6-rebound" class="wrong"' in table and "rms 7, max 9 sigma" in table
+    assert '<tr id="fig6-rebound" class="diverges"' in table and "rms 7, max 9 sigma" in table
     assert "No curves: ArithmeticError: &lt;oh&gt;" in page
 
 
