@@ -14,6 +14,8 @@ from stronge1994 import csv_tables
 from stronge1994.curve_names import is_shifted
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing.beside import MODELS, STYLES
+from stronge1994.pages import key_numbers
 from stronge1994.plan import figures
 from stronge1994.run import plans
 
@@ -165,6 +167,40 @@ def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, fir
         assert np.isclose(points, point, rtol=1e-9).all(axis=1).any(), point
 
 
+def test_friction_reaches_its_limit_where_a_contact_slips_and_never_exceeds_it(given):
+    for figure, friction, limit in (("fig4", "$F_1/", "limit"), ("rod", "$F_1/", "$F_2$")):
+        curves, draw = given(figure)
+        lines = [
+            next(line for line, words in drawn(draw(curves)) if words.startswith(start))
+            for start in (friction, f"added here: {limit}" if figure == "fig4" else limit)
+        ]
+        left = np.abs(lines[1].get_ydata()) - np.abs(lines[0].get_ydata())
+        assert left.min() > -1e-9 and np.sum(left < 1e-9) > 20, figure
+
+
+def test_a_trial_lies_right_of_the_line_where_a_model_differs(given, first_run):
+    curves, draw = given("inelastic")
+    numbers = key_numbers.read(first_run[0] / "results/key_numbers.csv")
+    axes = draw(curves).axes[2]
+    trials = [label.get_text() for label in axes.get_yticklabels()]
+    for model, line in zip(MODELS, axes.lines, strict=False):
+        for over, row in line.get_xydata():
+            trial = trials[round(row)]
+            name = f"pairs.{model}" + ("" if trial == "as judged" else f".{trial}")
+            assert (over >= 1) == (numbers[f"{name}.p"] <= 0.01), name
+        assert line.get_label() == STYLES[model]["label"]
+
+
+def test_the_rod_of_the_sketch_leans_back_by_its_tilt(given):
+    """A tip that is ahead of the centre has a positive tilt, and moves to the right."""
+    curves, draw = given("rod")
+    axes = next(axes for axes in draw(curves).axes if "tilt $" in axes.get_xlabel())
+    (x, y) = max(axes.lines, key=Line2D.get_linewidth).get_xydata()[-1]
+    tilt, ratio = (float(v) for v in re.findall(r"= ([-\d.]+)", axes.get_xlabel()))
+    assert np.degrees(np.arctan2(-x, y)) == pytest.approx(tilt)
+    assert np.sign(axes.texts[1].xy[0] - axes.texts[1].xyann[0]) == np.sign(ratio)
+
+
 # Parts that the drawings share
 
 
@@ -176,3 +212,23 @@ def test_a_line_has_the_numbers_and_names_of_its_columns():
     assert line.get_xydata() == pytest.approx(np.array([[0, 1], [1, np.nan], [2, 1]]), nan_ok=True)
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("time, $t_c$", "spin y, rad/s")
     assert line.get_label() == "lumped, $e = 0.5$"
+
+
+def test_points_have_the_errors_of_their_axes():
+    axes = house_style.new(2).subplots()
+    series = {"x": [3.0], "y": [5.0], "sigma": (0.25, 2.0)}
+    columns = {"axes": ("time [t_c]", "spin_y [rad/s]")}
+    bars = house_style.measured(axes, series | columns)
+    across, along = (bar.get_segments()[0] for bar in bars.lines[2])
+    assert across.tolist() == [[2.75, 5], [3.25, 5]] and along.tolist() == [[3, 3], [3, 7]]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time, $t_c$", "spin y, rad/s")
+
+
+def test_above_angles_stand_their_tangents():
+    axes = house_style.new(2).subplots()
+    house_style.angle_axes([axes], (10, 60))
+    (top,) = axes.child_axes
+    for part, scale in ((top, lambda at: np.tan(np.radians(at))), (axes, float)):
+        ticks = {float(re.sub(r"[^\d.]", "", t.get_text())): t.get_position()[0] for t in part.get_xticklabels()}
+        assert [scale(at) for at in ticks.values()] == pytest.approx(list(ticks))
+        assert len(ticks) >= 2 and 10 <= min(ticks.values()) <= max(ticks.values()) <= 60
