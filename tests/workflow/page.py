@@ -1,29 +1,28 @@
 """A page of a run as its parts."""
 
+import re
 from html.parser import HTMLParser
-
-
-def squeezed(text):
-    """A text without white space."""
-    return "".join(text.split())
 
 
 def flat(text):
     """Words of a piece of HTML, without white space."""
-    return squeezed("".join(Page(text).words))
+    return "".join("".join(Page(text).words).split())
+
+
+def rows(text):
+    """Rows of all tables of a piece of HTML, as their cells, and these as words."""
+    found = [row.split("</tr>")[0] for row in text.split("<tr")[1:]]
+    return [[flat(cell) for cell in re.split(r"<t[dh]\b[^>]*>", row)[1:]] for row in found]
 
 
 class Page(HTMLParser):
-    """Anchors, links, resources, words, controls, tables and the bar of all pages.
-
-    A table is a list of rows, a row a list of cells, and a cell its words without white space.
-    """
+    """Anchors, links, resources, words, controls and the bar of all pages."""
 
     def __init__(self, text):
         super().__init__()
         self.ids, self.links, self.resources, self.words = [], [], [], []
-        self.bar, self.controls, self.tables = [], {}, []
-        self._in_bar, self._select, self._in_cell = False, None, False
+        self.bar, self.controls = [], {}
+        self._in_bar, self._select = False, None
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -38,24 +37,14 @@ class Page(HTMLParser):
         self.resources += [found["href"]] if tag == "link" else []
         if tag in ("input", "select"):
             self._select = self.controls[found.get("id", "")] = {**found, "options": []}
-        elif tag == "table":
-            self.tables.append([])
-        elif tag == "tr":
-            self.tables[-1].append([])
-        elif tag in ("td", "th"):
-            self.tables[-1][-1].append("")
-            self._in_cell = True
         elif tag == "option":
             self._select["options"].append(found.get("value"))
 
     def handle_endtag(self, tag):
         self._in_bar &= tag != "nav"
-        self._in_cell &= tag not in ("td", "th")
 
     def handle_data(self, data):
         self.words.append(data)
-        if self._in_cell:
-            self.tables[-1][-1][-1] += squeezed(data)
 
     @property
     def text(self):

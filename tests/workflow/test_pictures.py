@@ -31,7 +31,9 @@ NOT_DRAWN = {
 }
 # Lines that are computed for the picture: their own labels, or titles of their panels.
 COMPUTED = r"limit \$-\\mu F_2|\$F_1/\\mu\$|right of the line|against finite|slip throughout as"
-COMPUTED += r"|\(d\) velocity|\(e\) peak|\(f\) diss|stated in the paper|measured|LAMMPS|pooltool|\(d\) \$e"
+COMPUTED += (
+    r"|\(d\) velocity|\(e\) peak|\(f\) diss|stated in the paper|measured|LAMMPS|pooltool|\(d\) \$e"
+)
 # What the label or the title of a line says if the name of its curve or column has such words.
 NAMED = {
     r"lumped\.viscous": "Kelvin–Voigt|lumped, viscous",
@@ -105,7 +107,9 @@ def curves_of(line, curves):
 def agrees(words, name, column):
     """Whether words about a line tell the model, the column and the values of its curve."""
     said = [
-        re.search(told, words) for part, told in NAMED.items() if re.search(part, f"{name}, {column}")
+        re.search(told, words)
+        for part, told in NAMED.items()
+        if re.search(part, f"{name}, {column}")
     ]
     for symbol, value in re.findall(r"(\w+) = ([\d.]+)", name):
         stated = re.findall(rf"\b{symbol} = ([\d., to$]*\d)", words)
@@ -229,6 +233,9 @@ def test_above_angles_stand_their_tangents():
     house_style.angle_axes([axes], (10, 60))
     (top,) = axes.child_axes
     for part, scale in ((top, lambda at: np.tan(np.radians(at))), (axes, float)):
-        ticks = {float(re.sub(r"[^\d.]", "", t.get_text())): t.get_position()[0] for t in part.get_xticklabels()}
+        ticks = {
+            float(re.sub(r"[^\d.]", "", t.get_text())): t.get_position()[0]
+            for t in part.get_xticklabels()
+        }
         assert [scale(at) for at in ticks.values()] == pytest.approx(list(ticks))
         assert len(ticks) >= 2 and 10 <= min(ticks.values()) <= max(ticks.values()) <= 60
