@@ -1,18 +1,11 @@
 """A page of a run as its parts."""
 
-import re
 from html.parser import HTMLParser
 
 
 def flat(text):
     """Words of a piece of HTML, without white space."""
     return "".join("".join(Page(text).words).split())
-
-
-def rows(text):
-    """Rows of all tables of a piece of HTML, as their cells, and these as words."""
-    found = [row.split("</tr>")[0] for row in text.split("<tr")[1:]]
-    return [[flat(cell) for cell in re.split(r"<t[dh]\b[^>]*>", row)[1:]] for row in found]
 
 
 class Page(HTMLParser):

@@ -89,15 +89,6 @@ def test_a_line_is_a_curve_of_the_table_and_each_curve_is_drawn(given, figure):
     assert [n for n in names if not re.search(NO_LINES.get(figure, "^$"), n)] == []
 
 
-def test_bars_of_the_rubber_sphere_span_what_velocity_and_spin_say(given):
-    curves, draw = given("rubber_sphere")
-    bars = next(b for b in draw(curves).axes[0].collections if "alone" in b.get_label())
-    shown = np.array(bars.get_segments())[:, :, 1]
-    share = "tangential_restitution [1]"
-    for end, values in zip(("spin", "velocity"), shown.T, strict=True):
-        assert values.tolist() == curves[f"{end} alone"][share].tolist()
-
-
 def test_a_trial_lies_right_of_the_line_where_a_model_differs(given, first_run):
     curves, draw = given("inelastic")
     numbers = key_numbers.read(first_run[0] / "results/key_numbers.csv")

@@ -12,13 +12,12 @@ import yaml
 from stronge1994 import csv_tables, curve_names, reference_data
 from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
-from stronge1994.figures.shared.drawing.beside import MODELS
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import key_numbers, note, which_model
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.verdict_tables import verdict_table
-from tests.workflow.page import Page, flat, rows
+from tests.workflow.page import Page, flat
 from tests.workflow.project import ROOT, config
 
 CONFIG = config()
@@ -61,10 +60,7 @@ def test_the_first_words_say_how_it_went_and_what_was_found(pages, tables, numbe
     first = Page(head).text
     assert first.index("PASSED") < first.rindex("What we found")
     assert "FAILED" not in pages("report")
-    ledger = tables("ledger")
-    counts = Counter(row["verdict"] for row in ledger)
-    assert f"Of {len(ledger)} entries {counts['confirmed']} are confirmed" in first
-    grave = [row["entry"] for row in ledger if row["grade"] == "changes a result"]
+    grave = [row["entry"] for row in tables("ledger") if row["grade"] == "changes a result"]
     assert grave and all(f'<a href="ledger.html#{entry}">' in head for entry in grave)
     assert f"= {numbers['pairs.lumped.hysteretic.chi2']:.0f}, of" in first
 
@@ -97,13 +93,11 @@ def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, ta
     shown = re.split("<h[23]", text[text.index(f'<h3 id="{name}">') + 3 :])[0]
     svg = (first_run[0] / f"figures/{name}.svg").read_bytes()
     assert base64.b64encode(svg).decode() in shown
-    mine = [row["comparison"] for row in tables("verdicts") if row["figure"] == name]
-    assert re.findall(r'<tr id="([^"]*)"', shown) == mine
+    mine = {row["comparison"]: row for row in tables("verdicts") if row["figure"] == name}
+    assert re.findall(r'<tr id="([^"]*)"', shown) == list(mine)
     counted = Page(shown).text.split(f"{len(mine)} comparison", 1)[1].split(" verdict ")[0]
     counts = {words[:5]: int(count) for count, words in re.findall(r"(\d+) ([a-z ]+)", counted)}
-    assert counts == Counter(
-        row["verdict"][:5] for row in tables("verdicts") if row["figure"] == name
-    )
+    assert counts == Counter(row["verdict"][:5] for row in mine.values())
     told = pages("sources")
     told = told[told.index(f'<pre id="config-{name}"') :].split("</pre>")[0]
     config = configuration.with_values(CONFIG)
@@ -135,74 +129,54 @@ def test_residuals_are_those_that_were_judged(first_run, tables):
 # The note
 
 
-# In which words the note states each number, by its name and format.
-STATED = """
-Of {ledger.entries:.0f} entries {ledger.confirmed:.0f} are confirmed, {ledger.confirmed within
-rounding:.0f} confirmed within rounding, {ledger.wrong:.0f} wrong, and {ledger.not testable:.0f}
-cannot | {ledger.changes a result:.0f} of the wrong ones change a result | at separation is within
-{elastic.largest:.3f} µv2(0) | {pairs.number:.0f} measured pairs | (χ2 =
-{pairs.lumped.hysteretic.chi2:.0f}, of which polyurethane gives
-{pairs.lumped.hysteretic.polyurethane.chi2:.0f}; a viscous continuum has
-{pairs.continuum.viscous.chi2:.0f}) | makes {rows.judged:.0f} comparisons. In {rows.right:.0f} our
-curve is that of its model | {rows.agrees:.0f} agree with | {rows.explained difference:.0f} differ
-and we know | {rows.unexplained difference:.0f} differ for a cause that we do not know |
-{rows.untested difference:.0f} differ from points of which only | {rows.inconclusive:.0f} agree,
-but so uncertain | {rows.awaited:.0f} are awaited | count, with {rows.published.agrees:count} models
-| {nature.limit_half.paper:.1f} instead of 5.25 | {nature.limit_half.viscous:.2f} (viscous) and
-{nature.limit_half.plastic:.2f} (yields) | up to {elastic.largest:.3f} µv2(0), at x =
-{elastic.at:.2f}, where initial | or words ({ledger.sign or misprint:.0f}; | judgement
-({ledger.matter of judgement:.0f}) | {ledger.causes:.0f} causes | model then grows, from
-{nature.reversal(1).paper:.2f} to {nature.reversal(0.5).paper:.2f} | χ2 of {pairs.number:.0f}
-pairs, as judged | how many of the {pairs.spreads:.0f} the model differs | quotes
-{pairs.number:.0f} pairs, e from 1.00 to {pairs.least_e:.2f} | {pairs.spreads:count} ranges |
-polyurethane, e = {pairs.least_e:.2f}: measured β0 = {pairs.soft.measured:.2f} ±
-{pairs.soft.sigma:.2f}, the paper's model {pairs.soft.lumped.hysteretic:.2f}, the continua
-{pairs.soft.continuum.viscous:.2f} and {pairs.soft.continuum.plastic:.2f}. It gives
-{pairs.lumped.hysteretic.polyurethane.chi2:.0f} of {pairs.lumped.hysteretic.chi2:.0f}. |
-{pairs.lumped.hysteretic.polyurethane.failed:count} of {pairs.spreads:count} (p =
-{pairs.lumped.hysteretic.without polyurethane.p:probability}). Without chrome steel |
-{pairs.lumped.hysteretic.both.failed:count} (p =
-{pairs.lumped.hysteretic.without both.p:probability}) | without loss is off by
-{rubber.continuum.distance.small:.2f} | in both continua, from {nature.reversal(1).viscous:.2f} to
-{nature.reversal(0.5).viscous:.2f} (viscous) and {nature.reversal(0.5).plastic:.2f} (yields) | off
-by {yielding.continuum.plastic.rms:.2f} µv2(0), root mean square, and by
-{yielding.continuum.plastic.max:.2f} at most | ({nature.distance(viscous, 0.8,
-1.21).unloading_stiffness:.2f} against {nature.distance(viscous, 0.8, 1.21).paper:.2f} µv2(0) from
-the viscous one | {nature.distance(plastic, 0.8, 1.21).unloading_stiffness:.2f} against
-{nature.distance(plastic, 0.8, 1.21).paper:.2f} from the plastic one | at e = 0.6 it is nearer
-({nature.distance(plastic, 0.6, 7).unloading_stiffness:.2f} instead of {nature.distance(plastic,
-0.6, 7).paper:.2f} from the plastic one | nearest to the finite elements:
-{yielding.lumped.viscous.rms:.2f} µv2(0), root mean square, {yielding.lumped.viscous.max:.2f} at
-most; {yielding.lumped.viscous.near.rms:.2f} for e from 0.62 | up to
-{nature.peak_spread.viscous:.2f} (viscous) and {nature.peak_spread.plastic:.2f} (yields) | e below
-{pairs.second_e:.2f}"""
-# And of each model in its row of Table 2.
-OF_MODEL = """ {pairs.*.chi2:.0f} {pairs.*.least:.0f} to {pairs.*.most:.0f} {pairs.*.failed:.0f}
-{pairs.*.without polyurethane.chi2:.0f} {rubber.*.distance:.2f} {rubber.*.distance.small:.2f}
-{yielding.*.rms:.2f}"""
-IN_WORDS = "viscous continuum", "plastic continuum", "two Kelvin–Voigt", "with e2ζ2", "in the paper"
+# Numbers of the note in turn; those of its second table by their rows.
+OF_MODEL = """pairs.*.chi2 | pairs.*.least | pairs.*.most | pairs.*.failed | pairs.*.without
+polyurethane.chi2 | rubber.*.distance | rubber.*.distance.small | yielding.*.rms"""
+MODELS = {
+    "as in the paper": "lumped.hysteretic",
+    "with e 2 ζ 2": "lumped.unloading-stiffness",
+    "two Kelvin–Voigt": "lumped.viscous",
+    "viscous continuum": "continuum.viscous",
+    "plastic continuum": "continuum.plastic",
+}
+OF_MODELS = " | ".join(OF_MODEL.replace("*", model) for model in MODELS.values())
+IN_TURN = f"""
+ledger.entries | ledger.confirmed | ledger.confirmed within rounding | ledger.wrong | ledger.not
+testable | ledger.changes a result | elastic.largest | pairs.number |
+pairs.lumped.hysteretic.chi2 | pairs.lumped.hysteretic.polyurethane.chi2 |
+pairs.continuum.viscous.chi2 | rows.judged | rows.right | rows.agrees | rows.explained difference
+| rows.unexplained difference | rows.untested difference | rows.inconclusive | rows.awaited |
+rows.published.agrees | nature.limit_half.paper | nature.limit_half.viscous |
+nature.limit_half.plastic | elastic.largest | elastic.at | ledger.sign or misprint |
+ledger.matter of judgement | ledger.causes | nature.reversal(1).paper |
+nature.reversal(0.5).paper | pairs.number | pairs.spreads | {OF_MODELS} | pairs.number |
+pairs.least_e | pairs.spreads | pairs.least_e | pairs.soft.measured | pairs.soft.sigma |
+pairs.soft.lumped.hysteretic | pairs.soft.continuum.viscous | pairs.soft.continuum.plastic |
+pairs.lumped.hysteretic.polyurethane.chi2 | pairs.lumped.hysteretic.chi2 |
+pairs.lumped.hysteretic.polyurethane.failed | pairs.spreads | pairs.lumped.hysteretic.without
+polyurethane.p | pairs.lumped.hysteretic.both.failed | pairs.lumped.hysteretic.without both.p |
+rubber.continuum.distance.small | nature.reversal(1).viscous | nature.reversal(0.5).viscous |
+nature.reversal(0.5).plastic | yielding.continuum.plastic.rms | yielding.continuum.plastic.max |
+nature.distance(viscous, 0.8, 1.21).unloading_stiffness | nature.distance(viscous, 0.8,
+1.21).paper | nature.distance(plastic, 0.8, 1.21).unloading_stiffness | nature.distance(plastic,
+0.8, 1.21).paper | nature.distance(plastic, 0.6, 7).unloading_stiffness |
+nature.distance(plastic, 0.6, 7).paper | yielding.lumped.viscous.rms |
+yielding.lumped.viscous.max | yielding.lumped.viscous.near.rms | nature.peak_spread.viscous |
+nature.peak_spread.plastic | pairs.second_e
+"""
 
 
-def test_each_number_of_the_note_stands_in_its_words_and_no_other_does(numbers):
-    """With these words taken out, a note of other numbers is the same."""
+def test_the_note_tells_its_numbers_in_turn_and_of_the_loss_that_it_names(numbers, monkeypatch):
     shown = dict.fromkeys(("fig5", "inelastic", "rubber_sphere", "yielding"), b"<svg/>")
-    models = zip(IN_WORDS, curve_names.MODELS, strict=True)
-    rows_of_table = [words + OF_MODEL.replace("*", model) for words, model in models]
-    told = [" ".join(words.split()) for words in [*STATED.split("|"), *rows_of_table]]
-    spelt = {name: 10 - numbers[name] for name in re.findall(r"{([^{]+):count", STATED)}
-    other = {name: value + 20 + 3 * i for i, (name, value) in enumerate(numbers.items())} | spelt
-    rest = []
-    for given in (numbers, other):
-        text = flat(note.page(given, [], shown, str(ROOT / "workflow/report/note.html")))
-        for words in told:
-            for name, form in re.findall(r"{(.+?):(.+?)}", words):
-                written = getattr(note, form, f"{{:{form}}}".format)(given[name])
-                words = words.replace(f"{{{name}:{form}}}", written)
-            words = "".join(words.split())
-            assert words in text
-            text = text.replace(words, "", 1)
-        rest.append(text)
-    assert rest[0] == rest[1]
+    for form in ("count", "probability"):
+        monkeypatch.setattr(note, form, "{:.0f}".format)
+    names, marks = list(numbers), {name: 3000.0 + i for i, name in enumerate(numbers)}
+    text = Page(note.page(marks, [], shown, str(ROOT / "workflow/report/note.html"))).text
+    text = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda found: f"«{names[int(found[1])]}»", text)
+    assert re.findall("«(.*?)»", text) == " ".join(IN_TURN.split()).split(" | ")
+    assert all(f"{words} «pairs.{model}.chi2»" in text for words, model in MODELS.items())
+    for name, loss in re.findall(r"«([^«]*)» \((viscous|yields)\)", text):
+        assert {"viscous": "viscous", "yields": "plastic"}[loss] in name
 
 
 def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, inventory):
@@ -223,7 +197,7 @@ def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, invento
     assert {name: numbers[f"ledger.{name}"] for name in counts} == counts
     assert numbers["ledger.causes"] == len({row["cause"] for row in ledger} - {""})
     rows = {row["comparison"]: row for row in tables("verdicts")}
-    for model in MODELS:
+    for model in curve_names.MODELS:
         row = rows[f"inelastic-{model}-pairs"]
         assert f"{numbers[f'pairs.{model}.chi2']:.3g}" == row["chi^2"]
         assert f"{numbers[f'pairs.{model}.p']:.2g}" == f"{float(row['p']):.2g}"
@@ -237,7 +211,7 @@ def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, invento
     kept = (runs["friction [1]"] < 0.101) & (e >= 0.45) & (runs["set"] != "calibration")
     near = kept & (e >= 0.62) & (e <= 0.92)
     rubber, yielding = curves("rubber_sphere"), curves("yielding")
-    for model in MODELS:
+    for model in curve_names.MODELS:
         off = yielding[f"{model}, runs"][w] - runs[w]
         assert numbers[f"yielding.{model}.rms"] == rms(off[kept])
         assert numbers[f"yielding.{model}.near.max"] == pytest.approx(abs(off[near]).max())
@@ -279,33 +253,34 @@ ROW = dict.fromkeys(verdict_table.COLUMNS, "") | {
 }  # fmt: skip
 FOUND = {"chi^2": "3", "degrees of freedom": "4", "degrees of sigma": "5", "p": "0.6"}
 KNOWN = {"regression": "1 <= rms <= 2", "note": "ledger: eq-25"}
+CELLS = {
+    ("far", "diverges", "beside others"): FOUND,
+    ("known", "explained difference", "as printed"): KNOWN,
+    ("stated", "agrees", "as printed"): {"found": "5", "stated": "7 deg"},
+    ("code", "right", "solved right"): {},
+    ("later", "awaited", "beside others"): {"points": "", "reference": "cross2014/a"},
+    ("solved", "wrong", "solved right"): {"figure": "trade", "note": "<oh>"},
+}
 VERDICTS = [
-    ROW | {"comparison": name, "verdict": verdict, "question": question} | cells
-    for name, verdict, question, cells in (
-        ("fig6-far", "diverges", "beside others", FOUND),
-        ("fig6-known", "explained difference", "as printed", KNOWN),
-        ("fig6-stated", "agrees", "as printed", {"found": "5", "stated": "7 deg"}),
-        ("fig6-code", "right", "solved right", {}),
-        ("fig6-later", "awaited", "beside others", {"points": "", "reference": "cross2014/a"}),
-        ("trade-solved", "wrong", "solved right", {"figure": "trade", "note": "<oh>"}),
-    )
+    ROW | {"verdict": verdict, "question": question} | cells | {"comparison": f"fig6-{name}"}
+    for (name, verdict, question), cells in CELLS.items()
 ]
-MAW, SIGMAS = "Maw 1976: rebound", "rms 7, max 8 sigma vertically rms 9"
-TOLD = [
-    ["diverges beside others", f"Far {MAW}", "χ² 3 of 4, p = 0.6 (sigmas of 5) vertically rms 9"],
-    ["explained difference as printed", f"Known {MAW}", "rms 9, max 10 μv2(0)"],
-    ["agrees as printed", f"Stated {MAW}", "5 (stated 7°)"],
-    ["right solved right", f"Code {MAW}", SIGMAS],
-    ["awaited beside others", "Later Cross 2014: a", ""],
-]
-BOUNDS = ["max ≤ 1", "max ≤ 1 regression: 1 ≤ rms ≤ 2", *["max ≤ 1"] * 3]
-OF_FIGURE = [
-    "Fig. 6", "1 right, largest 10, 8 sigma", "1 agrees; differs: Eq. 25, rms 9 μv2(0)",
-    "diverges Maw 1976: 2 points, rms 9 μv2(0), 7 sigma", "Cross 2014",
-]  # fmt: skip
-DIFFERENCE = [
-    "Fig. 6, known", "as printed", "explained: Eq. 25", "rms 9, max 10 μv2(0)", "1 ≤ rms ≤ 2",
-]  # fmt: skip
+TOLD = """
+diverges beside others Far Maw 1976: rebound
+χ² 3 of 4, p = 0.6 (sigmas of 5) vertically rms 9 max ≤ 1 It is so.
+explained difference as printed Known Maw 1976: rebound
+rms 9, max 10 μv2(0) max ≤ 1 regression: 1 ≤ rms ≤ 2 Ledger: Eq. 25. It is so.
+agrees as printed Stated Maw 1976: rebound 5 (stated 7°) max ≤ 1 It is so.
+right solved right Code Maw 1976: rebound
+rms 7, max 8 sigma vertically rms 9 max ≤ 1 It is so.
+awaited beside others Later Cross 2014: a max ≤ 1 It is so."""
+ROWS = """
+Fig. 6 1 right, largest 10, 8 sigma 1 agrees; differs: Eq. 25, rms 9 μv2(0)
+diverges Maw 1976: 2 points, rms 9 μv2(0), 7 sigma Cross 2014
+| Fig. 6, known as printed explained: Eq. 25 rms 9, max 10 μv2(0) 1 ≤ rms ≤ 2
+| e = 0.8, plastic loss error up to 0.3 to 0.1 m, 0.05, 3 µs
+| by 0.5 µv2(0) (e = 0.8, plastic; 0.6 if
+| the wrong loss is an error of up to 0.4 µ"""
 MODEL = {"model_10": "m", "max_velocity_10 [mu v2(0)]": "0.05", "whole_time_10 [s]": "3e-6"}
 MODEL |= {"other_loss [mu v2(0)]": "0.4", "input_spread [mu v2(0)]": "0.5"}
 MODEL |= {"input_spread_stick [mu v2(0)]": "0.6", "restitution [1]": "0.8", "loss": "plastic"}
@@ -342,14 +317,9 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
     counts = "5 comparisons: 1 diverges, 1 explained difference, 1 agrees, 1 right, 1 awaited"
     table = page[page.index(f"<details open><summary>{counts[:14]}") :].split("</table>")[0]
     assert counts in Page(table).text and '<tr id="fig6-far" class="diverges"' in table
-    why = ["It is so.", "Ledger: Eq. 25. It is so.", *["It is so."] * 3]
-    told = [[*row, bound, reason] for row, bound, reason in zip(TOLD, BOUNDS, why, strict=True)]
-    assert rows(table)[1:] == [[flat(cell) for cell in row] for row in told]
-    model = ["e = 0.8, plastic loss", "error up to 0.3 to 0.1", "m, 0.05, 3 µs"]
-    for row in (OF_FIGURE, DIFFERENCE, model):
-        assert [flat(cell) for cell in row] in rows(page)
-    assert "by 0.5 µv2(0) (e = 0.8, plastic; 0.6 if".replace(" ", "") in flat(page)
-    assert "the wrong loss is an error of up to 0.4 µ" in text and "&lt;oh&gt;" in page
+    assert flat(table).endswith("reason" + flat(TOLD))
+    assert all(flat(row) in flat(page) for row in ROWS.split("|"))
+    assert "&lt;oh&gt;" in page
 
 
 def test_strips_show_points_by_their_verdicts():
