@@ -54,14 +54,3 @@ def test_other_models_do_not_stand_beside_others_unless_they_fail_and_then_first
     fails = other[0] | {"verdict": "diverges"}
     (item,) = cells(paper, fails, *other[1:])[2]
     assert item.rows == ["fig6-0", "fig6-paper"] and item.verdict == "diverges"
-
-
-def test_a_cell_says_the_largest_difference_and_the_distance_of_all_points():
-    two = row(SOLVED, "right") | {"max [axis units]": "0.5", "max [sigma]": "0.1"}
-    (item,) = cells(row(SOLVED, "right"), two)[0]
-    assert (item.points, item.size, item.sigmas) == ("2", "5e-01", "3")
-    far = row(OTHERS, "untested difference") | {"points": "12", "rms [axis units]": "0.04"}
-    (item,) = cells(row(OTHERS, "agrees"), far)[2]
-    rms = ((4 * 0.02**2 + 12 * 0.04**2) / 16) ** 0.5
-    assert (item.points, item.size, item.unit) == ("16", f"{rms:.2g}", "mu v2(0)")
-    assert (item.sigmas, item.verdict) == ("2", "untested difference")

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from scipy.special import chdtrc
 
 from stronge1994 import csv_tables, curve_names, reference_data
 from stronge1994.figures.inelastic import trials as inelastic
@@ -18,6 +19,7 @@ from stronge1994.pages import key_numbers, note, which_model
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.verdict_tables import verdict_table
+from tests.unit.test_figure_table import row
 from tests.workflow.page import Page, flat
 from tests.workflow.project import ROOT, config
 
@@ -76,9 +78,7 @@ def test_every_verdict_figure_and_source_is_there(pages, tables):
     verdicts = tables("verdicts")
     counts = Counter(row["verdict"] for row in verdicts)
     assert all(f"{verdict} {count} " in page.text for verdict, count in counts.items())
-    for figure in CONFIG["figures"]:
-        assert figure in page.ids and f"config-{figure}" in provenance.ids
-        assert f"tables/curves/{figure}.csv" in page.links
+    assert {f"tables/curves/{figure}.csv" for figure in CONFIG["figures"]} <= set(page.links)
     for source in (ROOT / "data").glob("*/source.yaml"):
         stated = reference_data.load_yaml(source)
         assert " ".join(stated["citation"].split()) in stated_in
@@ -96,11 +96,8 @@ def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, ta
     shown = re.split("<h[23]", text[text.index(f'<h3 id="{name}">') + 3 :])[0]
     svg = (first_run[0] / f"figures/{name}.svg").read_bytes()
     assert base64.b64encode(svg).decode() in shown
-    mine = {row["comparison"]: row for row in tables("verdicts") if row["figure"] == name}
-    assert re.findall(r'<tr id="([^"]*)"', shown) == list(mine)
-    counted = Page(shown).text.split(f"{len(mine)} comparison", 1)[1].split(" verdict ")[0]
-    counts = {words[:5]: int(count) for count, words in re.findall(r"(\d+) ([a-z ]+)", counted)}
-    assert counts == Counter(row["verdict"][:5] for row in mine.values())
+    mine = [row["comparison"] for row in tables("verdicts") if row["figure"] == name]
+    assert re.findall(r'<tr id="([^"]*)"', shown) == mine
     told = pages("sources")
     told = told[told.index(f'<pre id="config-{name}"') :].split("</pre>")[0]
     config = configuration.with_values(CONFIG)
@@ -125,54 +122,41 @@ def test_residuals_are_those_that_were_judged(first_run):
 # The note
 
 
-# Numbers of the note in turn; those of its second table by their rows.
-OF_MODEL = """pairs.*.chi2 | pairs.*.least | pairs.*.most | pairs.*.failed | pairs.*.without
-polyurethane.chi2 | rubber.*.distance | rubber.*.distance.small | yielding.*.rms"""
-MODELS = {
-    "as in the paper": "lumped.hysteretic",
-    "with e 2 ζ 2": "lumped.unloading-stiffness",
-    "two Kelvin–Voigt": "lumped.viscous",
-    "viscous continuum": "continuum.viscous",
-    "plastic continuum": "continuum.plastic",
+# Words behind numbers of the note, and what the names of these numbers have in them.
+BEHIND = {
+    r" \(viscous\)": "viscous",
+    r" \(yields\)": "plastic",
+    r" (against|instead of) «": "unloading",
+    r"( µ v 2 \(0\))? from the viscous": r"\(viscous.*paper",
+    " from the plastic": r"\(plastic.*paper",
+    " at most": "max$",
+    r" (µ v 2 \(0\) , root|for e from)": "rms$",
+    " instead of 5.25": "half.paper",
+    " our curve": "rows.right",
+    " agree with": "rows.agrees",
+    " differ and we know": "rows.explained",
+    " differ for": "rows.unexplained",
+    " differ from points": "rows.untested",
+    " are confirmed": "confirmed$",
+    " wrong ?,": "ledger.wrong",
 }
-OF_MODELS = " | ".join(OF_MODEL.replace("*", model) for model in MODELS.values())
-IN_TURN = f"""
-ledger.entries | ledger.confirmed | ledger.confirmed within rounding | ledger.wrong | ledger.not
-testable | ledger.changes a result | elastic.largest | pairs.number |
-pairs.lumped.hysteretic.chi2 | pairs.lumped.hysteretic.polyurethane.chi2 |
-pairs.continuum.viscous.chi2 | rows.judged | rows.right | rows.agrees | rows.explained difference
-| rows.unexplained difference | rows.untested difference | rows.inconclusive | rows.awaited |
-rows.published.agrees | nature.limit_half.paper | nature.limit_half.viscous |
-nature.limit_half.plastic | elastic.largest | elastic.at | ledger.sign or misprint |
-ledger.matter of judgement | ledger.causes | nature.reversal(1).paper |
-nature.reversal(0.5).paper | pairs.number | pairs.spreads | {OF_MODELS} | pairs.number |
-pairs.least_e | pairs.spreads | pairs.least_e | pairs.soft.measured | pairs.soft.sigma |
-pairs.soft.lumped.hysteretic | pairs.soft.continuum.viscous | pairs.soft.continuum.plastic |
-pairs.lumped.hysteretic.polyurethane.chi2 | pairs.lumped.hysteretic.chi2 |
-pairs.lumped.hysteretic.polyurethane.failed | pairs.spreads | pairs.lumped.hysteretic.without
-polyurethane.p | pairs.lumped.hysteretic.both.failed | pairs.lumped.hysteretic.without both.p |
-rubber.continuum.distance.small | nature.reversal(1).viscous | nature.reversal(0.5).viscous |
-nature.reversal(0.5).plastic | yielding.continuum.plastic.rms | yielding.continuum.plastic.max |
-nature.distance(viscous, 0.8, 1.21).unloading_stiffness | nature.distance(viscous, 0.8,
-1.21).paper | nature.distance(plastic, 0.8, 1.21).unloading_stiffness | nature.distance(plastic,
-0.8, 1.21).paper | nature.distance(plastic, 0.6, 7).unloading_stiffness |
-nature.distance(plastic, 0.6, 7).paper | yielding.lumped.viscous.rms |
-yielding.lumped.viscous.max | yielding.lumped.viscous.near.rms | nature.peak_spread.viscous |
-nature.peak_spread.plastic | pairs.second_e
-"""
 
 
-def test_the_note_tells_its_numbers_in_turn_and_of_the_loss_that_it_names(numbers, monkeypatch):
+def test_numbers_of_the_note_are_those_that_the_words_behind_them_mean(numbers):
     shown = dict.fromkeys(("fig5", "inelastic", "rubber_sphere", "yielding"), b"<svg/>")
-    for form in ("count", "probability"):
-        monkeypatch.setattr(note, form, "{:.0f}".format)
+    spelt = {
+        name: 4.0 for name in numbers if name.endswith(("failed", "spreads", "published.agrees"))
+    }
     names, marks = list(numbers), {name: 3000.0 + i for i, name in enumerate(numbers)}
-    text = Page(note.page(marks, [], shown, str(ROOT / "workflow/report/note.html"))).text
-    text = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda found: f"«{names[int(found[1])]}»", text)
-    assert re.findall("«(.*?)»", text) == " ".join(IN_TURN.split()).split(" | ")
-    assert all(f"{words} «pairs.{model}.chi2»" in text for words, model in MODELS.items())
-    for name, loss in re.findall(r"«([^«]*)» \((viscous|yields)\)", text):
-        assert {"viscous": "viscous", "yields": "plastic"}[loss] in name
+    page = note.page(marks | spelt, [], shown, str(ROOT / "workflow/report/note.html"))
+    marked = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda m: f"«{names[int(m[1])]}»", Page(page).text)
+    for words, named in BEHIND.items():
+        found = re.findall(f"«([^«]*)»{words}", marked)
+        found = [one if isinstance(one, str) else one[0] for one in found]
+        assert found and all(re.search(named, name) for name in found), (words, found)
+
+
+HALVED = "the stated sigmas are two sigmas."
 
 
 def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, inventory):
@@ -193,7 +177,13 @@ def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, invento
     for model in curve_names.MODELS:
         row = rows[f"inelastic-{model}-pairs"]
         assert f"{numbers[f'pairs.{model}.chi2']:.3g}" == row["chi^2"]
-        assert f"{numbers[f'pairs.{model}.p']:.2g}" == f"{float(row['p']):.2g}"
+        for trial, pairs, sigma in (("", 11, 1), ("without both.", 9, 0), (HALVED, 11, 0.5)):
+            chi2, p = (numbers[f"pairs.{model}.{trial}{key}"] for key in ("chi2", "p"))
+            assert p == pytest.approx(chdtrc(pairs, chi2))
+            assert not sigma or chi2 == pytest.approx(numbers[f"pairs.{model}.chi2"] / sigma**2)
+    paper, soft = "pairs.lumped.hysteretic", "polyurethane.chi2"
+    left = numbers[f"{paper}.chi2"] - numbers[f"{paper}.{soft}"]
+    assert numbers[f"{paper}.without {soft}"] == pytest.approx(left)
     w, x = "velocity [mu v2(0)]", "incidence [mu v2(0)]"
     fig5 = curves("fig5")
     gap = np.abs(fig5["lumped"][w] - fig5["continuum"][w])
@@ -239,38 +229,37 @@ def test_the_note_s_farthest_pairs_are_so(numbers, first_run, inventory):
 
 
 # Rows of verdicts, all of whose cells differ, and what the report tells of them.
-ROW = dict.fromkeys(verdict_table.COLUMNS, "") | {
-    "figure": "fig6", "reference": "maw1976/rebound", "points": "2", "rms [sigma]": "7",
-    "max [sigma]": "8", "rms [axis units]": "9", "max [axis units]": "10", "unit": "mu v2(0)",
-    "curve": "lumped", "allowed": "max <= 1", "reason": "it is so",
-}  # fmt: skip
-FOUND = {"chi^2": "3", "degrees of freedom": "4", "degrees of sigma": "5", "p": "0.6"}
+FOUND = {"chi^2": "7", "degrees of freedom": "6", "degrees of sigma": "5", "p": "0.6"}
 KNOWN = {"regression": "1 <= rms <= 2", "note": "ledger: eq-25"}
+SAME = {"curve": "lumped", "allowed": "max <= 1", "reason": "it is so"}
 CELLS = {
     ("far", "diverges", "beside others"): FOUND,
+    ("near", "agrees", "beside others"): {"points": "12", "rms [axis units]": "0.04"},
     ("known", "explained difference", "as printed"): KNOWN,
     ("stated", "agrees", "as printed"): {"found": "5", "stated": "7 deg"},
-    ("code", "right", "solved right"): {},
+    ("code", "right", "solved right"): {"max [axis units]": "0.5"},
     ("later", "awaited", "beside others"): {"points": "", "reference": "cross2014/a"},
     ("solved", "wrong", "solved right"): {"figure": "trade", "note": "<oh>"},
 }
 VERDICTS = [
-    ROW | {"verdict": verdict, "question": question} | cells | {"comparison": f"fig6-{name}"}
+    row(question, verdict, comparison=f"fig6-{name}", **SAME | cells)
     for (name, verdict, question), cells in CELLS.items()
 ]
 TOLD = """
 diverges beside others Far Maw 1976: rebound
-χ² 3 of 4, p = 0.6 (sigmas of 5) vertically rms 9 max ≤ 1 It is so.
+χ² 7 of 6, p = 0.6 (sigmas of 5) vertically rms 0.02 max ≤ 1 It is so.
+agrees beside others Near Maw 1976: rebound
+rms 2, max 3 sigma vertically rms 0.04 max ≤ 1 It is so.
 explained difference as printed Known Maw 1976: rebound
-rms 9, max 10 μv2(0) max ≤ 1 regression: 1 ≤ rms ≤ 2 Ledger: Eq. 25. It is so.
+rms 0.02, max 0.03 μv2(0) max ≤ 1 regression: 1 ≤ rms ≤ 2 Ledger: Eq. 25. It is so.
 agrees as printed Stated Maw 1976: rebound 5 (stated 7°) max ≤ 1 It is so.
 right solved right Code Maw 1976: rebound
-rms 7, max 8 sigma vertically rms 9 max ≤ 1 It is so.
+rms 2, max 3 sigma vertically rms 0.02 max ≤ 1 It is so.
 awaited beside others Later Cross 2014: a max ≤ 1 It is so."""
 ROWS = """
-Fig. 6 1 right, largest 10, 8 sigma 1 agrees; differs: Eq. 25, rms 9 μv2(0)
-diverges Maw 1976: 2 points, rms 9 μv2(0), 7 sigma Cross 2014
-| Fig. 6, known as printed explained: Eq. 25 rms 9, max 10 μv2(0) 1 ≤ rms ≤ 2
+Fig. 6 1 right, largest 0.5, 3 sigma 1 agrees; differs: Eq. 25, rms 0.02 μv2(0)
+diverges Maw 1976: 16 points, rms 0.036 μv2(0), 2 sigma Cross 2014
+| Fig. 6, known as printed explained: Eq. 25 rms 0.02, max 0.03 μv2(0) 1 ≤ rms ≤ 2
 | e = 0.8, plastic loss error up to 0.3 to 0.1 m, 0.05, 3 µs
 | by 0.5 µv2(0) (e = 0.8, plastic; 0.6 if
 | the wrong loss is an error of up to 0.4 µ"""
@@ -307,7 +296,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
     # What was found is told of a run that passed.
     assert "PASSED" not in text and "What we found" not in text
     # What fails is unfolded.
-    counts = "5 comparisons: 1 diverges, 1 explained difference, 1 agrees, 1 right, 1 awaited"
+    counts = "6 comparisons: 1 diverges, 2 agree, 1 explained difference, 1 right, 1 awaited"
     table = page[page.index(f"<details open><summary>{counts[:14]}") :].split("</table>")[0]
     assert counts in Page(table).text and '<tr id="fig6-far" class="diverges"' in table
     assert flat(table).endswith("reason" + flat(TOLD))
