@@ -1,8 +1,8 @@
 """Figures beyond the paper: what no row of the run judges, in the curves of a finished run."""
 
-import importlib.util
+import runpy
 import shutil
-import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -113,12 +113,7 @@ def test_both_halves_of_the_measurement_add_up(solved):
 
 @pytest.fixture(scope="module")
 def make():
-    spec = importlib.util.spec_from_file_location("make", ELEMENTS / "make.py")
-    module = importlib.util.module_from_spec(spec)
-    with pytest.MonkeyPatch.context() as patch:  # a folder of bytecode would be a stray
-        patch.setattr(sys, "dont_write_bytecode", True)
-        spec.loader.exec_module(module)
-    return module
+    return SimpleNamespace(**runpy.run_path(ELEMENTS / "make.py"))
 
 
 def test_a_pushed_contact_that_never_yields_stays_elastic():
