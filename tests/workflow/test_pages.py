@@ -24,6 +24,7 @@ from tests.workflow.project import ROOT
 FOLDER = ROOT / "workflow/report"
 BAR = re.findall(r'^  \("(.+?)", ', (FOLDER / "site.html").read_text(encoding="utf-8"), flags=re.M)
 INTERFACE, SLIDES = "interface/planarimpact.html", "slides_why_a_superball_comes_back.html"
+OF_LECTURES = "slides_", "answers_"
 COLOURS = "color-contrast"  # a rule of axe
 # pdoc writes the interface and has no option for these: the links beside each name have no words,
 # and each "Parameters" is a heading of level 6 with the same id.
@@ -128,9 +129,7 @@ def test_snakemake_makes_the_same_site(finished, site):
 def test_the_bar_has_every_page(figures):
     # A lecture links its own slides and answers.
     written = {path.name for path in figures.glob("*.html")}
-    assert sorted(BAR) == sorted(
-        name for name in written if not name.startswith(("slides_", "answers_"))
-    )
+    assert sorted(BAR) == sorted(name for name in written if not name.startswith(OF_LECTURES))
 
 
 def test_every_link_of_the_site_leads_somewhere_in_it(site, figures):

@@ -74,8 +74,7 @@ def test_the_first_words_say_how_it_went_and_what_was_found(pages, tables):
 def test_every_verdict_figure_and_source_is_there(pages, tables, inventory):
     page, provenance = Page(pages("report")), Page(pages("sources"))
     stated_in = provenance.text
-    verdicts = tables("verdicts")
-    counts = Counter(row["verdict"] for row in verdicts)
+    counts = Counter(row["verdict"] for row in tables("verdicts"))
     assert all(f"{verdict} {count} " in page.text for verdict, count in counts.items())
     assert {f"tables/curves/{figure}.csv" for figure in CONFIG["figures"]} <= set(page.links)
     for source, stated in inventory.items():
