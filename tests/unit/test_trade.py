@@ -1,6 +1,7 @@
 """Error against time: how long a model takes, and which one is chosen for a tolerance."""
 
 import math
+from types import SimpleNamespace
 
 import pytest
 
@@ -9,16 +10,6 @@ from stronge1994.figures.trade import answers as trade_table
 from stronge1994.figures.trade import curves as trade
 
 MAX = "max_velocity [mu v2(0)]"
-
-
-class Clock:
-    """Stands for `time`: the seconds that the processor worked, which it shows in steps."""
-
-    def __init__(self, tick=1e-9):
-        self.worked, self.tick = 0.0, tick
-
-    def process_time(self):
-        return math.floor(self.worked / self.tick) * self.tick
 
 
 def test_a_time_is_the_median_of_interleaved_rounds_beside_their_scatter():
@@ -35,13 +26,10 @@ def test_a_time_is_the_median_of_interleaved_rounds_beside_their_scatter():
 
 
 def test_calls_far_below_the_step_of_the_clock_are_timed(monkeypatch):
-    clock = Clock(tick=1 / 64)
+    worked = []  # a call takes 1e-4 s, and the clock goes on in steps of 1/64 s
+    clock = SimpleNamespace(process_time=lambda: math.floor(len(worked) * 1e-4 * 64) / 64)
     monkeypatch.setattr(trade, "time", clock)
-
-    def rebound(x):
-        clock.worked += 1e-4
-
-    (found,) = trade.times([trade.stopwatch(rebound)], (0, 8), [1000], 10.0)
+    (found,) = trade.times([trade.stopwatch(worked.append)], (0, 8), [1000], 10.0)
     assert found["time_1000 [s]"] == pytest.approx(1e-7, rel=max(found["scatter_1000 [1]"], 0.05))
 
 

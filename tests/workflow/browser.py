@@ -63,14 +63,9 @@ class Page:
 
 @contextlib.contextmanager
 def page(timeout=20.0):
-    """A page of a new browser, killed at the end whatever happens.
+    """A page of a new browser, killed at the end whatever happens; one at a time in a process.
 
-    Only one at a time can be open in a process.
-
-    Parameters
-    ----------
-    timeout : float
-        Longest wait for an answer, in seconds.
+    `timeout` is the longest wait for an answer, in seconds.
     """
     program = next(filter(None, map(shutil.which, NAMES)), None)
     if program is None:

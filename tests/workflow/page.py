@@ -3,6 +3,11 @@
 from html.parser import HTMLParser
 
 
+def flat(text):
+    """Words of a piece of HTML, without white space."""
+    return "".join("".join(Page(text).words).split())
+
+
 class Page(HTMLParser):
     """Anchors, links, resources, words, controls and the bar of all pages."""
 

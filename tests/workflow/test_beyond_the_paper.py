@@ -1,8 +1,8 @@
 """Figures beyond the paper: what no row of the run judges, in the curves of a finished run."""
 
-import importlib.util
+import runpy
 import shutil
-import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -92,27 +92,6 @@ def test_the_sigmas_of_a_pair_s_parameters_add_up_in_quadrature(solved, measured
         assert (up - middle)[row] == pytest.approx(np.linalg.norm(others - first), abs=5e-4)
 
 
-def test_trials_of_the_pairs(solved, measured):
-    """Each makes one choice otherwise; the numbers are those of a plain sum of squares."""
-    curves = solved("inelastic")
-    trials = pair_trials.trials(curves)
-    fit = {
-        words: pair_trials.goodness(curves, "lumped.hysteretic", measured, trial)
-        for words, trial in trials.items()
-    }
-    whole = fit["as judged"]
-    halved = fit["the stated sigmas are two sigmas"]
-    assert halved.value == pytest.approx(4 * whole.value)
-    assert fit["without both"].degrees == whole.degrees - 2
-    up = curves[curve_names.shifted(PAPER, pair_trials.PARAMETERS, 1)][BETA_0]
-    beta_0 = curves[PAPER][BETA_0]
-    pulls = (measured[BETA_0] - beta_0) / np.hypot(measured[pair_trials.SIGMA], up - beta_0)
-    assert whole.value == pytest.approx(np.sum(pulls**2))
-    soft = measured["pair"] == "polyurethane"
-    gone = whole.value - fit["without polyurethane"].value
-    assert gone == pytest.approx(float(pulls[soft][0] ** 2))
-
-
 # The rubber sphere
 
 
@@ -134,12 +113,7 @@ def test_both_halves_of_the_measurement_add_up(solved):
 
 @pytest.fixture(scope="module")
 def make():
-    spec = importlib.util.spec_from_file_location("make", ELEMENTS / "make.py")
-    module = importlib.util.module_from_spec(spec)
-    with pytest.MonkeyPatch.context() as patch:  # a folder of bytecode would be a stray
-        patch.setattr(sys, "dont_write_bytecode", True)
-        spec.loader.exec_module(module)
-    return module
+    return SimpleNamespace(**runpy.run_path(ELEMENTS / "make.py"))
 
 
 def test_a_pushed_contact_that_never_yields_stays_elastic():

@@ -21,8 +21,8 @@ LEAST_PROBABILITY = 1e-3
 def probability(p: float) -> str:
     """A probability in two figures; a very small one as an upper bound, as tails are not known.
 
-    >>> probability(0.2234), probability(3.6e-26)
-    ('0.22', '< 0.001')
+    >>> probability(0.00124), probability(3.6e-26)
+    ('0.0012', '< 0.001')
     """
     return f"{p:.2g}" if p >= LEAST_PROBABILITY else f"< {LEAST_PROBABILITY:g}"
 
