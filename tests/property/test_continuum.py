@@ -168,13 +168,14 @@ def test_the_contact_starts_in_stick_up_to_zeta2(loss):
 def test_the_regimes_of_maw_and_others_begin_where_they_say():
     """Gross slip at the start from psi1 = 1 on, throughout from psi1 = 4 chi - 1 on."""
     zeta2 = np.array([17 / 14, 1.5, 0.4])
-    for at, below, above in (
-        (1.0, Regime.STICK_SLIP, Regime.SLIP_STICK_SLIP),
-        (7 / zeta2 - 1, Regime.SLIP_STICK_SLIP, Regime.SLIP_THROUGHOUT),
+    stick, slip = Regime.STICK_SLIP, Regime.SLIP_STICK_SLIP
+    for at, *regimes in (
+        (zeta2, stick, stick, slip),
+        (7 - zeta2, slip, Regime.SLIP_THROUGHOUT, Regime.SLIP_THROUGHOUT),
     ):
-        near = zeta2 * at * (1 + 1e-6 * np.array([[-1], [1]]))
+        near = at * (1 + 1e-6 * np.array([[-1], [0], [1]]))
         found = continuum.rebound(near, 3.5, zeta2, tolerance=1e-5)
-        assert (found.regime == [[below], [above]]).all()
+        assert found.regime.T.tolist() == [regimes] * 3
     assert (continuum.rebound([3.5, 4.5, 5.5], tolerance=1e-4).peak_friction == 1).all()
 
 

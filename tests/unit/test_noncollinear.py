@@ -111,6 +111,7 @@ def test_friction_holds_a_contact_without_restitution_closed():
         (1.0, 0.5, 0.25, 4.0, 0.0, 0.5, "STICK"),
         (4.0, 0.5, 0.25, 4.0, 0.0, 0.5, "SLIP_STICK"),
         (4.0, 0.5, 0.25, 4.0, 1.0, 1.0, "STICK_SLIP"),  # at the limit of initial slip
+        (1.5, 0.5, 0.25, 2.0, 1.0, 0.75, "SLIP_THROUGHOUT"),  # there, and slip gets no faster
         (4.0, 0.5, 0.25, 4.0, 1.0, 2.0, "MULTIPLE"),
         (4.0, 4.0, -1.0, 2.0, 1.0, 1.0, "SLIP_THROUGHOUT"),  # slip stops at maximum compression
     ],
