@@ -33,15 +33,6 @@ def same(one, other):
 # Forms of call.
 
 
-@pytest.mark.parametrize("loss", LOSSES)
-def test_scalars_give_scalars_and_arrays_broadcast_in_any_shape(loss):
-    result = lumped.rebound(0.2, restitution=0.5, loss=loss)
-    assert isinstance(result.velocity, float) and result.regime is Regime.STICK_SLIP
-    result = lumped.rebound(np.ones((3, 1)), restitution=np.full((1, 4), 0.5), loss=loss)
-    assert result.velocity.shape == result.regime.shape == (3, 4)
-    assert lumped.rebound(np.zeros((0, 2)), restitution=0.5, loss=loss).velocity.shape == (0, 2)
-
-
 def test_batches_do_not_depend_on_their_size(monkeypatch):
     groups = drawn(500)
     whole = {loss: lumped.rebound(*groups, loss=loss) for loss in LOSSES}
@@ -72,6 +63,11 @@ def test_unloading_stiffness_is_the_elastic_stiffness_of_unloading():
     x, beta, zeta2, e = drawn(2000)
     found = lumped.rebound(x, beta, zeta2, e, loss="unloading-stiffness")
     same(found, lumped.rebound(x, beta, e * (e * zeta2), e))
+    limit, wanted = (
+        lumped.slip_throughout_limit(beta, ratio, e, loss=loss)
+        for ratio, loss in ((zeta2, "unloading-stiffness"), (e * e * zeta2, "hysteretic"))
+    )
+    np.testing.assert_allclose(limit, wanted, rtol=1e-14)
     one = lumped.history(2.0, 3.5, 1.21, 0.5, loss="unloading-stiffness")
     other = lumped.history(2.0, 3.5, 1.21 * 0.25, 0.5)
     np.testing.assert_allclose(one.velocity, other.velocity, rtol=1e-13)
@@ -80,21 +76,6 @@ def test_unloading_stiffness_is_the_elastic_stiffness_of_unloading():
         limit = rigid.rebound(X, 3.5, 1.21, none)
         for name in ALIKE[:3]:
             np.testing.assert_allclose(getattr(found, name), getattr(limit, name), atol=1e-13)
-
-
-def test_limits_of_slip_throughout():
-    _, beta, zeta2, e = drawn(2000)
-    late = beta + np.maximum(0, e * beta - zeta2 / e)
-    expected = {
-        "hysteretic": np.maximum(zeta2, late),
-        "unloading-stiffness": np.maximum(e * e * zeta2, beta + e * np.maximum(0, beta - zeta2)),
-        "viscous": np.maximum(zeta2, beta + e * (beta - zeta2)),
-    }
-    for loss, limit in expected.items():
-        found = lumped.slip_throughout_limit(beta, zeta2, e, loss=loss)
-        np.testing.assert_allclose(found, limit, rtol=1e-14)
-    at_0 = [lumped.slip_throughout_limit(3.5, [1.0, 5.0], 0.0, loss=loss) for loss in LOSSES]
-    np.testing.assert_array_equal(at_0, [[3.5, 5.0], [3.5, 3.5], [3.5, 5.0]])
 
 
 # One contact.

@@ -127,6 +127,3 @@ def test_linear_converges_to_lumped_with_the_square_of_the_steps(e):
     away = [0, 10, 40, 120, 160]  # from thresholds
     np.testing.assert_array_equal(found[-1].regime[away], exact.regime[away])
     assert LINEAR(0.5, 8.0, 0.1, steps=2048).regime == Regime.MULTIPLE
-
-
-# ---- energy ----
