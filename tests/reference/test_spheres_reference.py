@@ -9,6 +9,8 @@ take very many steps. The suite tries what searches found and the impacts around
 `long` climbs.
 """
 
+import io
+
 import numpy as np
 import pytest
 
@@ -221,6 +223,15 @@ def test_what_needs_no_table_is_exact():
         np.testing.assert_array_equal(slides.regime, Regime.SLIP_THROUGHOUT)
         for field in ("velocity", "peak_friction", "dissipation"):
             np.testing.assert_allclose(getattr(slides, field), getattr(exact, field), rtol=1e-15)
+
+
+def test_a_table_is_read_as_it_was_written():
+    shipped, file = table.shipped("coarse"), io.BytesIO()
+    table.write(file, shipped)
+    again = table.read(io.BytesIO(file.getvalue()))
+    assert again.exponent == shipped.exponent and str(again) == str(shipped)
+    for one, other in zip(shipped.panels.values(), again.panels.values(), strict=True):
+        assert all(map(np.array_equal, one[1:], other[1:]))
 
 
 @pytest.mark.parametrize(

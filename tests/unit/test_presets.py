@@ -1,4 +1,4 @@
-"""Presets: their numbers are those of their sources, in C too."""
+"""Presets: their numbers are those of their sources, in C and JavaScript too."""
 
 import csv
 import re
@@ -12,7 +12,8 @@ from planarimpact import collision, export
 
 DATA = Path(__file__).parents[2] / "data"
 PRESETS = collision.presets()
-FIELDS = "friction stiffness_ratio restitution relaxation_time yield_pressure effective_modulus"
+FIELDS = ["friction", "stiffness_ratio", "restitution", "relaxation_time", "yield_pressure"]
+FIELDS += ["effective_modulus"]
 
 
 def test_beads_are_those_of_the_chart():
@@ -38,16 +39,30 @@ def test_balls_are_those_of_their_sources():
         assert body.mass == pytest.approx(6 * 0.028349523125, rel=1e-3)
 
 
-def test_a_header_has_the_same_numbers(tmp_path):
-    export.write_spheres(tmp_path / "balls.h", "c", tolerance=max(export.TABLES))
-    code = (tmp_path / "balls.h").read_text()
-    losses = {"BALLS_VISCOUS": False, "BALLS_PLASTIC": True}
-    found = re.findall(r"_preset balls_(\w+) = {\s*{(.*)},\s*{([^{}]*), (\w+)}};\n", code)
+WRITTEN = {
+    "h": r"_preset balls_(\w+) = {\s*{(.*)},\s*{([^{}]*), (\w+)}};\n",
+    "mjs": r"(\w+): {\s*body: {(.*)},\s*pair: {([^{}]*), loss: (\w+),\s*}",
+}
+
+
+@pytest.mark.parametrize("ending", WRITTEN)
+def test_c_and_javascript_have_the_same_numbers(ending, tmp_path):
+    path = tmp_path / f"balls.{ending}"
+    export.write_spheres(path, {"h": "c", "mjs": "js"}[ending], tolerance=max(export.TABLES))
+    code = path.read_text()
+    found = re.findall(WRITTEN[ending], code)
     assert [name for name, *_ in found] == list(PRESETS)
-    for name, body, pair, loss in found:
-        preset = PRESETS[name]
-        assert [float(number) for number in body.split(",")] == list(preset.body)
-        wanted = np.nan_to_num([getattr(preset.pair, field) for field in FIELDS.split()])
-        assert [float(number) for number in pair.split(",")] == wanted.tolist()
-        by_law = np.isnan(preset.pair.restitution)
-        assert by_law if loss == "0" else losses[loss] == preset.pair.plastic
+    for name, *texts, loss in found:
+        body, pair = PRESETS[name].body, PRESETS[name].pair
+        numbers = np.nan_to_num([getattr(pair, field) for field in FIELDS])
+        parts = (body, body._fields), (numbers, FIELDS)
+        for text, (wanted, fields) in zip(texts, parts, strict=True):
+            assert [float(one) for one in re.findall(r"(?<!\w)\d[\d.e+-]*", text)] == list(wanted)
+            assert re.findall(r"(\w+):", text) in ([], list(fields))
+        law = "PLASTIC" if pair.plastic else "VISCOUS"
+        assert loss.removeprefix("BALLS_") == ("0" if np.isnan(pair.restitution) else law)
+    # Squares of the radius of gyration over the radius: of a solid sphere, and of a thin shell.
+    assert [eval(root) for root in re.findall(r"radius \* .*?sqrt\((.*?)\)", code)] == [
+        2 / 5,
+        2 / 3,
+    ]
