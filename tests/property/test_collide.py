@@ -406,13 +406,6 @@ def test_metal_slides_throughout_where_no_spring_can_hold_it(e):
             assert words.startswith(f"restitution = {e}: allowed are numbers from 0.1")
 
 
-@pytest.mark.parametrize("speed", [0.0, 1.0])
-def test_one_impact_that_does_not_approach_is_left_alone(speed):
-    after = collide(of_steel(0.3, 0.9), [0, 0, 1], BALL, [0.3, 0.0, speed], [0, 0, 0])
-    assert after.velocity.tolist() == [0.3, 0.0, speed] and after.spin.tolist() == [0, 0, 0]
-    assert after.regime == Regime.NO_IMPACT and np.isnan(after.model_form)
-
-
 # Pairs.
 
 

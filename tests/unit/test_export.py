@@ -368,7 +368,12 @@ def test_python_has_the_same_collisions(collisions):
     np.testing.assert_allclose(after["impulse"] / mass, wanted.impulse / mass, atol=1e-7)
     np.testing.assert_array_equal(after["regime"], wanted.regime)
     np.testing.assert_array_equal(np.isnan(after["error_bound"]), np.isnan(wanted.error_bound))
-    assert not (after["error_bound"] < wanted.error_bound * (1 - 1e-6)).any()
+    # Plastic impacts have the bound of all panels, in Python that of their own.
+    loose = spheres.ERROR_BOUND["plastic"] / spheres.PANEL_BOUND["plastic_high"]
+    bound = wanted.error_bound > 0
+    ratios = np.unique(after["error_bound"][bound] / wanted.error_bound[bound])
+    assert np.abs(ratios[:, None] - [1.0, loose]).min(axis=1).max() < 1e-6 and ratios[0] < 2
+    assert not after["error_bound"][wanted.error_bound == 0].any()
     known = ~np.isnan(after["model_form"])
     np.testing.assert_allclose(after["model_form"][known], wanted.model_form[known], atol=1e-7)
     assert (after["restitution"][~known & np.isfinite(wanted.model_form)] < 0.3).all()

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from planarimpact import continuum, lumped, rigid
+from planarimpact import continuum, lumped
 from stronge1994.figures.fig5 import curves as fig5
 from stronge1994.figures.fig6 import curves as fig6
 from stronge1994.figures.fig7 import curves as fig7
 from stronge1994.figures.fig9 import curves as fig9
 from stronge1994.figures.shared.curves import beside
-from stronge1994.printed import impact, peak_force, slip
+from stronge1994.printed import impact, slip
 
 BETA, ZETA2 = 3.5, 1.21
 
@@ -38,13 +38,6 @@ def test_peaks_hold_up_to_beta_only():
     _, peak, _ = impact.rebound(x, BETA, ZETA2, 1.0)
     gap = np.abs(peak - lumped.rebound(x, BETA, ZETA2, 1.0).peak_friction)
     assert (gap[:4] < 1e-12).all() and (gap[4:] > 0.01).all()
-
-
-def test_peak_without_tangential_compliance_is_that_of_the_rigid_contact():
-    """Eq. 34, where slip halts in compression."""
-    slope, mu = np.array([0.1, 0.6, 1.2]), 0.5
-    exact = mu * np.cos(np.arctan(slope)) * rigid.rebound(slope / mu, BETA).peak_friction
-    np.testing.assert_allclose(peak_force.eq_34_friction(slope, mu, BETA), exact, rtol=1e-13)
 
 
 @pytest.mark.parametrize("sine", [-1.0, 3.0])

@@ -5,8 +5,6 @@ import re
 import subprocess
 import sys
 
-import yaml
-
 from stronge1994 import csv_tables
 from stronge1994.plan import figures
 from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
@@ -135,11 +133,3 @@ def test_a_figure_is_judged_alone_in_any_folder_with_any_home(tmp_path):
     assert "no curve 'e = 0.5'; the figure has e = 1, e = 0.9" in said
     assert "fig3: FAILED. Reasons: 2\n  wrong: fig3-events: " in said
     assert re.search("^fig3-events .* wrong$", said, flags=re.M) and "fig6" not in said
-
-
-def test_a_rule_that_measures_time_runs_alone():
-    """By the profile, also for a plain `snakemake --cores 3`."""
-    timed = "resources:\n        timed=lambda wildcards: int(wildcards.figure in TIMED),\n"
-    assert timed in (ROOT / "workflow/rules/curves.smk").read_text()
-    profile = yaml.safe_load((ROOT / "profiles/default/config.yaml").read_text())
-    assert profile["resources"] == ["timed=1"]
