@@ -41,7 +41,7 @@ def test_balls_are_those_of_their_sources():
 
 WRITTEN = {
     "h": r"_preset balls_(\w+) = {\s*{(.*)},\s*{([^{}]*), (\w+)}};\n",
-    "mjs": r"(\w+): {\s*body: {(.*)},\s*pair: {([^{}]*), loss: (\w+),\s*}",
+    "mjs": r"\b(\w+): {\s*body: {(.*)},\s*pair: {([^{}]*), loss: (\w+),\s*}",
 }
 
 
