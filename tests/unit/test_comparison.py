@@ -6,6 +6,7 @@ from scipy.optimize import minimize
 from scipy.stats import kstest
 
 from planarimpact import lumped
+from stronge1994 import csv_tables
 from stronge1994.goodness import chi_squared
 from stronge1994.judging.distances import (
     Residuals,
@@ -14,8 +15,8 @@ from stronge1994.judging.distances import (
     vertex_residuals,
 )
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import limits_of_regimes
-from stronge1994.judging.verdicts import VISIBLE_SHIFT, judge
+from stronge1994.judging.points import limits_of_regimes, points, sigma
+from stronge1994.judging.verdicts import judge
 from stronge1994.verdict_tables.verdict_table import Verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
@@ -101,10 +102,10 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, sigma_values
             high = middle
         else:
             low = middle
-    for sigmas in (0.0, 0.5, 1.0):
+    for sigmas in (-1.0, -0.5, 0.0, 0.5, 1.0):
         # Moved back by two sigmas the points are still on one side of the curve, or on the other.
-        noticed = Verdict.AGREES if high < VISIBLE_SHIFT - sigmas else Verdict.INCONCLUSIVE
-        assert verdict_at(sigmas) == (noticed if sigmas < high else Verdict.DIVERGES)
+        noticed = Verdict.AGREES if high < 2.0 - abs(sigmas) else Verdict.INCONCLUSIVE
+        assert verdict_at(sigmas) == (noticed if abs(sigmas) < high else Verdict.DIVERGES)
     fact = {"kind": "computed"}
     residuals = Residuals(np.zeros(number), np.zeros(number), np.zeros(number))
     assert judge({}, fact, Measured("x", residuals, ["y"] * number), 0.01) == Verdict.RIGHT
@@ -169,6 +170,45 @@ def test_what_must_be_small_is_one_column_or_the_difference_of_two():
     assert both.x.tolist() == [0.0, 1.0] and both.sigmas.tolist() == [0.0, -0.5e12]
     one = measure({"metric": "small", "columns": ["z"]}, {}, curves).residuals
     assert one.sigmas.tolist() == [1.0, 2.5]
+
+
+@pytest.mark.parametrize(
+    ("entry", "chosen"),
+    [
+        ({}, [0, 1, 2, 3, 4, 5]),
+        ({"regime": "initial stick"}, [0, 1]),
+        ({"regime": "slip and stick"}, [2, 3]),
+        ({"regime": "slip throughout"}, [4, 5]),
+        ({"points": {"reader": "me"}}, [0, 2, 4]),
+        ({"points": {"reader": "me", "run": "1"}, "regime": "slip and stick"}, [2]),
+        ({"curve": "e = 1"}, [1, 3]),
+        ({"curve": "e = 1", "as_printed": True}, [1, 3, 5]),
+    ],
+)
+@pytest.mark.parametrize("axis", ["incidence", "angle"])
+def test_a_comparison_is_of_the_points_that_it_names(entry, chosen, axis, tmp_path):
+    """Regimes begin at zeta^2 = 0.5 and beta + e beta - zeta^2/e = 3.5, with the points there."""
+    path, x = tmp_path / "a.csv", np.array([0.0, 0.4999, 0.5, 3.4999, 3.5, 9.0])
+    x = np.degrees(np.arctan(0.2 * x)) if axis == "angle" else x
+    curves = ["e = 0", "e = 1"] * 2 + ["as printed, e = 0", "as printed, e = 1"]
+    rows = zip(x.tolist(), range(6), ["me", "you"] * 3, "111222", curves, strict=True)
+    columns = {"unit": "", "sigma": 1, "range": [0, 90]}
+    reference = {"kind": "computed", "path": path, "labels": ["reader", "run", "curve"]}
+    reference |= {"x": columns | {"column": axis}, "y": columns | {"column": "row"}}
+    groups = {"mass_ratio": 3.0, "stiffness_ratio": 0.5, "restitution": 0.5, "friction": 0.2}
+    csv_tables.write_rows(path, [axis, "row", *reference["labels"]], rows)
+    assert points(entry, reference | {"parameters": groups})["row"].tolist() == chosen
+
+
+def test_an_allowance_is_added_to_the_sigma_of_its_axis():
+    """Both may be of each point; where one is 0 a point cannot be compared."""
+    axes = {"unit": "1", "sigma": 3.0}, {"unit": "1", "sigma": "error"}
+    rows = {"error [1]": np.array([5.0, 12.0])}
+    assert sigma({}, axes, rows)[0] == 3.0
+    found = sigma({"allowance": {"x": 4.0, "y": 5.0}}, axes, rows)
+    assert found[0] == 5.0 and found[1].tolist() == [50**0.5, 13.0]
+    with pytest.raises(ValueError, match="an uncertainty of 0"):
+        sigma({}, axes, {"error [1]": np.array([5.0, 0.0])})
 
 
 @pytest.mark.parametrize("e", [1.0, 0.7, 0.3])

@@ -140,13 +140,3 @@ def test_the_allowance_is_what_is_known_of_the_form_of_the_model(name, curves):
     rms = np.sqrt(np.mean((y - np.interp(x, *line(name, curves))) ** 2))
     allowance = CONFIG["comparisons"][AWAITED[name]]["allowance"]
     assert allowance == {"x": 0.0, "y": pytest.approx(rms, rel=0.05)}
-
-
-@pytest.mark.parametrize(
-    ("regime", "points"),
-    [("initial stick", 2), ("slip and stick", 2), ("slip throughout", 1)],
-)
-def test_a_regime_chooses_its_points(regime, points, judged):
-    """Of the rubber sphere they begin at zeta^2 = 1.5 and 2 beta - zeta^2 = 5.5."""
-    x, y = [-0.05, 1.49, 1.51, 5.49, 5.51], np.zeros(5)
-    assert judged(RUBBER, x, y, regime=regime)["points"] == points
