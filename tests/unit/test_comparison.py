@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from scipy import stats
 from scipy.optimize import minimize
-from scipy.stats import kstest
 
 from planarimpact import lumped
 from stronge1994 import csv_tables
@@ -29,16 +29,9 @@ def test_distance_is_shortest_in_sigmas_not_vertical_and_signed():
     # A shift of 0.1 along x of a line of slope 1 is 0.1/sqrt(2) away.
     found = curve_residuals(([0.5, 1.5], [0.6, 0.4]), LINE, (1.0, 1.0)).sigmas
     assert found == pytest.approx(np.array([0.1, -0.1]) / np.sqrt(2))
-
-
-def test_each_point_has_a_sigma_of_its_own():
-    points = ([0.5, 1.0], [1.5, 1.0])
-    alone = [
-        curve_residuals(([x], [y]), LINE, sigma).sigmas[0]
-        for x, y, sigma in zip(*points, ((0.1, 0.5), (0.3, 0.2)), strict=True)
-    ]
-    together = curve_residuals(points, LINE, ([0.1, 0.3], [0.5, 0.2])).sigmas
-    np.testing.assert_array_equal(together, alone)
+    # With a sigma of each point: its axes stretch, and with these the slope.
+    found = curve_residuals(([0.5, 1.5], [0.6, 0.4]), LINE, ([1.0, 3.0], [1.0, 4.0])).sigmas
+    assert found == pytest.approx([0.1 / np.sqrt(2), -0.1 / 5])
 
 
 def test_the_nearest_vertex_of_a_label_counts():
@@ -62,53 +55,59 @@ def test_facts(found, fact, expected):
     assert fact_residuals(found, fact).sigmas[0] == expected
 
 
-@pytest.mark.parametrize(
-    ("good", "known", "unchanged", "expected"),
-    [
-        (True, "", True, Verdict.AGREES),
-        (False, "", True, Verdict.DIVERGES),
-        (False, "explained", True, Verdict.EXPLAINED),
-        (False, "unexplained", True, Verdict.UNEXPLAINED),
-        (False, "untested", True, Verdict.UNTESTED),
-        (False, "explained", False, Verdict.DIVERGES),
-        (True, "untested", True, Verdict.DIVERGES),  # there is no difference any more
-        (True, "", False, Verdict.DIVERGES),
-    ],
-)
-def test_verdicts(good, known, unchanged, expected):
-    entry = {"reference": "maw1976/limit", "regression": {"max": [0, 9.0 if unchanged else 0.1]}}
-    entry |= {"documented": {"as": known}} if known else {}
-    residuals = fact_residuals(0.5 if good else 2.0, {"value": 0.0, "tolerance": 1.0})
-    found = judge(entry, {"value": 0.0}, Measured("x", residuals, ["y"]), 0.01)
-    assert found == expected
+@pytest.mark.parametrize("known", ["", "explained", "unexplained", "untested"])
+@pytest.mark.parametrize("limit", [{}, {"limit": 0.25}, {"limit": 2.0}])
+def test_verdicts(known, limit):
+    """A known difference must be there, and keep its sizes and its sign."""
+    entry = {"reference": "maw1976/limit", **limit} | (
+        {"documented": {"as": known}} if known else {}
+    )
+    differs = Verdict(f"{known} difference") if known else Verdict.DIVERGES
+
+    def verdict(size, **bounds):
+        both = size * np.array([[-1.0, 0.5], [-3.0, 9.0]])  # in sigmas, and in units of the axis
+        measured = Measured("x", Residuals(np.zeros(2), *both), ["y"] * 2)
+        return judge(entry | {"regression": bounds}, {"value": 0.0}, measured, 0.01)
+
+    most = limit.get("limit", 1.0)
+    for size in (most, -most):
+        assert verdict(size) == (Verdict.DIVERGES if known else Verdict.AGREES)
+        size *= 1.001
+        found = {"rms": abs(size) * 0.625**0.5, "max": abs(size), "difference": 3 * size}
+        bounds = {key: sorted([0.99 * value, 1.01 * value]) for key, value in found.items()}
+        assert verdict(size, **bounds) == differs
+        for key, value in found.items():
+            for low, high in ((0.9, 0.99), (1.01, 1.1), (-1.1, -0.9)):
+                wrong = bounds | {key: sorted([low * value, high * value])}
+                assert verdict(size, **wrong) == Verdict.DIVERGES
 
 
-@pytest.mark.parametrize("sigma_values", [None, 4, 40])
+@pytest.mark.parametrize("of_sigma", [None, 4, 40])
 @pytest.mark.parametrize("number", [1, 5, 17])
 @pytest.mark.parametrize("parameter", [0.0, 1.0])
-def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, sigma_values, parameter):
-    """The farthest that all points may lie beside the curve is sought: two sigmas are too far."""
-    known = {"kind": "digitised", "sigma_values": sigma_values}
+def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, parameter):
+    """Of points that all lie as far beside the curve: two sigmas farther must be too far."""
+    known = {"kind": "digitised", "sigma_values": of_sigma}
     shifts = parameter * np.ones((1, number))  # an uncertain parameter moves all points
+    # Where p is 0.01.
+    largest = stats.chi2.isf(0.01, number)
+    if of_sigma:
+        largest = number * stats.f.isf(0.01, number, of_sigma)
+    far = np.sqrt(largest / number * (1 + parameter * number))
 
-    def verdict_at(sigmas):
+    def verdict_at(sigmas, reference=known, **entry):
         residuals = Residuals(np.zeros(number), np.full(number, sigmas), np.zeros(number))
-        return judge({}, known, Measured("x", residuals, ["y"] * number, shifts), 0.01)
+        measured = Measured("x", residuals, ["y"] * number, shifts)
+        return judge({"reference": "a/b"} | entry, reference, measured, 0.01)
 
-    low, high = 0.0, 100.0
-    while high - low > 1e-6:
-        middle = (low + high) / 2
-        if verdict_at(middle) == Verdict.DIVERGES:
-            high = middle
-        else:
-            low = middle
-    for sigmas in (-1.0, -0.5, 0.0, 0.5, 1.0):
-        # Moved back by two sigmas the points are still on one side of the curve, or on the other.
-        noticed = Verdict.AGREES if high < 2.0 - abs(sigmas) else Verdict.INCONCLUSIVE
-        assert verdict_at(sigmas) == (noticed if abs(sigmas) < high else Verdict.DIVERGES)
-    fact = {"kind": "computed"}
-    residuals = Residuals(np.zeros(number), np.zeros(number), np.zeros(number))
-    assert judge({}, fact, Measured("x", residuals, ["y"] * number), 0.01) == Verdict.RIGHT
+    for sigmas in (-1.0, -0.5, 0.0, 0.5, 1.0, 0.999 * far, -0.999 * far, 1.001 * far, -1.001 * far):
+        agrees, noticed = abs(sigmas) < far, far < 2.0 - abs(sigmas)
+        good = Verdict.AGREES if noticed else Verdict.INCONCLUSIVE
+        assert verdict_at(sigmas) == (good if agrees else Verdict.DIVERGES)
+        as_before = Verdict.UNCHANGED if agrees else Verdict.DIVERGES
+        assert verdict_at(sigmas, fitted=True) == as_before
+    for size, verdict in ((1.0, Verdict.RIGHT), (1.001, Verdict.WRONG)):
+        assert {verdict_at(size, {"kind": "computed"}), verdict_at(-size, {})} == {verdict}
 
 
 @pytest.mark.parametrize("values", [[3e-16, 0.0], [1.95, 2.0], [-0.5, 16.0]])
@@ -145,7 +144,7 @@ def test_probability_of_chi_squared():
     shift = np.linspace(0.5, 3.0, 6)
     p = [chi_squared(row, [shift]).p for row in own + common * shift]
     # Chance alone makes p even; without the shift nearly all of these would be refused.
-    assert kstest(p, "uniform").pvalue > 0.01
+    assert stats.kstest(p, "uniform").pvalue > 0.01
     assert np.mean([chi_squared(row).p < 0.01 for row in own + common * shift]) > 0.4
 
 

@@ -60,19 +60,18 @@ def curves(inventory, tmp_path_factory):
 
 @pytest.fixture
 def judged(inventory, curves, tmp_path):
-    """Row of the verdict table for points, after a change of the comparison."""
+    """Row of the verdict table for points."""
 
-    def row(name, x, y, **change):
+    def row(name, x, y):
         source, figure = name.split("/")[0], AWAITED[name].split("-")[0]
         folder = tmp_path / source
         folder.mkdir(exist_ok=True)
         (tmp_path / f"{name}.csv").write_text(written(name, x, y))
         (folder / "source.yaml").write_text(filled(name, len(x)))
         found = inventory | {source: reference_data.load(folder, schema("source"))}
-        entry = CONFIG["comparisons"][AWAITED[name]] | change
         references = plan.references(CONFIG, found, figure)
         path, significance = curves / f"{figure}.csv", CONFIG["significance"]
-        rows = {AWAITED[name]: entry}
+        rows = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]]}
         return compare(figure, rows, references, path, significance)[1]
 
     return row
