@@ -202,13 +202,13 @@ def solved(table_of, inventory, monkeypatch):
         monkeypatch.setattr(continuum, "rebound", lambda *groups, **_: lumped.rebound(*groups))
         plant(fault, monkeypatch)
         settings = settings_of(figure, inventory)
+        settings.pop("uncertainty", None)
         settings |= {"as_printed": False} if "as_printed" in settings else {}
         module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
         found = module.curves(**wrong_settings(settings, fault.get("settings", {})))
-        found = [columns for name, columns in found.items() if " 1 sigma" not in name]
         right = table_of(figure)
         own = [name for name in right if not (curve_names.AS_PRINTED in name or " 1 sigma" in name)]
-        wrong = dict(zip(own, found, strict=True))
+        wrong = dict(zip(own, found.values(), strict=True))
         return right | {name: wrong[name] for name in own if not name.startswith("continuum")}
 
     return curves
