@@ -34,16 +34,6 @@ def filled(name, points):
     return text.replace(awaited, f"  {series}:\n    kind: digitised\n{said}")
 
 
-def written(name, x, y):
-    """Text of the table of an awaited series."""
-    header = (
-        "angle [deg],peak_force [N]"
-        if LEWIS in name
-        else "incidence [mu v2(0)],velocity [mu v2(0)]"
-    )
-    return "\n".join([header, *(f"{a:.6f},{b:.6f}" for a, b in zip(x, y, strict=True))]) + "\n"
-
-
 @pytest.fixture(scope="module")
 def curves(inventory, tmp_path_factory):
     """Tables of Figs 5 and 8 as the config has them: of Fig. 5 the curve that is judged."""
@@ -66,7 +56,9 @@ def judged(inventory, curves, tmp_path):
         source, figure = name.split("/")[0], AWAITED[name].split("-")[0]
         folder = tmp_path / source
         folder.mkdir(exist_ok=True)
-        (tmp_path / f"{name}.csv").write_text(written(name, x, y))
+        series = inventory[source]["series"][name.split("/")[1]]
+        header = [reference_data.column_name(series[axis]) for axis in "xy"]
+        csv_tables.write_rows(tmp_path / f"{name}.csv", header, zip(x, y, strict=True))
         (folder / "source.yaml").write_text(filled(name, len(x)))
         found = inventory | {source: reference_data.load(folder, schema("source"))}
         references = plan.references(CONFIG, found, figure)
