@@ -8,7 +8,7 @@ from scipy.optimize import minimize
 from planarimpact import lumped
 from stronge1994 import csv_tables
 from stronge1994.goodness import chi_squared
-from stronge1994.judging import compare, write
+from stronge1994.judging import compare, landmarks, write
 from stronge1994.judging.distances import (
     Residuals,
     curve_residuals,
@@ -27,18 +27,31 @@ def test_distance_is_shortest_in_sigmas_not_vertical_and_signed():
     """Of points on the curve there is none, even at the kink; signs tell the side."""
     x = np.array([0.0, 0.95, 1.0, 1.05, 2.0])
     assert np.abs(curve_residuals((x, np.abs(x - 1)), LINE, (0.1, 0.1)).sigmas).max() < 1e-12
-    # A shift of 0.1 along x of a line of slope 1 is 0.1/sqrt(2) away.
-    found = curve_residuals(([0.5, 1.5], [0.6, 0.4]), LINE, (1.0, 1.0)).sigmas
-    assert found == pytest.approx(np.array([0.1, -0.1]) / np.sqrt(2))
-    # With a sigma of each point: its axes stretch, and with these the slope.
-    found = curve_residuals(([0.5, 1.5], [0.6, 0.4]), LINE, ([1.0, 3.0], [1.0, 4.0])).sigmas
-    assert found == pytest.approx([0.1 / np.sqrt(2), -0.1 / 5])
+    # A shift of 0.1 along x of a line of slope 1 is 0.1/sqrt(2) away where both sigmas are 1. A line
+    # may be drawn from either end, and each point has its own sigmas.
+    for line in (LINE, [axis[::-1] for axis in LINE]):
+        found = curve_residuals(([0.5, 1.5], [0.6, 0.4]), line, ([1.0, 3.0], [1.0, 4.0])).sigmas
+        assert found == pytest.approx([0.1 / np.sqrt(2), -0.1 / 5])
 
 
 def test_the_nearest_vertex_of_a_label_counts():
-    vertices = ([0.0, 0.0, 0.0], [1.0, 2.0, 4.5], ["stick", "slip", "slip"])
-    for label, y, sigmas in (("slip", 2.0, 0), ("stick", 2.0, 1), ("slip", 4.0, -0.5)):
-        assert vertex_residuals(([0.0], [y], [label]), vertices, (1, 1)).sigmas[0] == sigmas
+    vertices = ([4.0, 0.0, 4.0], [1.0, 2.0, 4.5], ["stick", "slip", "slip"])
+    for label, y, sigmas, plain in (
+        ("slip", 4.5, 0, 0),
+        ("stick", 2.0, 2, 1),
+        ("slip", 4, -1, -0.5),
+    ):
+        found = vertex_residuals(([4.0], [y], [label]), vertices, (8.0, 0.5))
+        assert (found.sigmas[0], found.plain[0]) == (sigmas, plain)
+        found = vertex_residuals(([4.0 + 8.0], [y], [label]), vertices, (8.0, 0.5))
+        assert found.sigmas[0] == np.copysign(np.hypot(sigmas, 1), plain)
+
+
+def test_landmarks_of_a_curve_are_where_it_gets_there_to_rounding():
+    x = np.array([0.0, 1.0, 3.0, 3.5, 4.0])
+    assert landmarks.find("peak", x, -((x - 1.7) ** 2)) == pytest.approx(1.7, rel=1e-14)
+    y = [0.2, 1 - 1e-13, 1 - 1e-15, 2.0, 0.5]
+    assert [landmarks.find(kind, x, y, 1.0) for kind in ("first", "last")] == [3.0, 3.5]
 
 
 def test_facts():
