@@ -27,8 +27,8 @@ def test_distance_is_shortest_in_sigmas_not_vertical_and_signed():
     """Of points on the curve there is none, even at the kink; signs tell the side."""
     x = np.array([0.0, 0.95, 1.0, 1.05, 2.0])
     assert np.abs(curve_residuals((x, np.abs(x - 1)), LINE, (0.1, 0.1)).sigmas).max() < 1e-12
-    # A shift of 0.1 along x of a line of slope 1 is 0.1/sqrt(2) away where both sigmas are 1. A line
-    # may be drawn from either end, and each point has its own sigmas.
+    # A shift of 0.1 along x of a line of slope 1 is 0.1/sqrt(2) away where both sigmas are 1. Each
+    # point may have its own, and a line may be drawn from either end.
     for line in (LINE, [axis[::-1] for axis in LINE]):
         found = curve_residuals(([0.5, 1.5], [0.6, 0.4]), line, ([1.0, 3.0], [1.0, 4.0])).sigmas
         assert found == pytest.approx([0.1 / np.sqrt(2), -0.1 / 5])
@@ -36,11 +36,7 @@ def test_distance_is_shortest_in_sigmas_not_vertical_and_signed():
 
 def test_the_nearest_vertex_of_a_label_counts():
     vertices = ([4.0, 0.0, 4.0], [1.0, 2.0, 4.5], ["stick", "slip", "slip"])
-    for label, y, sigmas, plain in (
-        ("slip", 4.5, 0, 0),
-        ("stick", 2.0, 2, 1),
-        ("slip", 4, -1, -0.5),
-    ):
+    for label, y, sigmas, plain in (("slip", 4.5, 0, 0), ("stick", 2, 2, 1), ("slip", 4, -1, -0.5)):
         found = vertex_residuals(([4.0], [y], [label]), vertices, (8.0, 0.5))
         assert (found.sigmas[0], found.plain[0]) == (sigmas, plain)
         found = vertex_residuals(([4.0 + 8.0], [y], [label]), vertices, (8.0, 0.5))
@@ -55,25 +51,22 @@ def test_landmarks_of_a_curve_are_where_it_gets_there_to_rounding():
 
 
 def test_facts():
-    about, below, above = (
-        {"value": 20.0, "tolerance": 2.0},
-        {"less_than": 1.0},
-        {"greater_than": 1.0},
-    )
     for found, distance in ((21.0, -0.5), (20.0, 0.0), (15.0, 2.5)):
-        assert fact_residuals(found, about).sigmas[0] == distance
-    for found, is_below, is_above in ((0.9, True, False), (1.0, False, False), (1.1, False, True)):
-        assert np.isfinite(fact_residuals(found, below).sigmas[0]) == is_below
-        assert np.isfinite(fact_residuals(found, above).sigmas[0]) == is_above
+        assert fact_residuals(found, {"value": 20.0, "tolerance": 2.0}).sigmas[0] == distance
+    for kind, holds in (
+        ("less_than", [True, False, False]),
+        ("greater_than", [False, False, True]),
+    ):
+        found = [fact_residuals(value, {kind: 1.0}).sigmas[0] for value in (0.9, 1.0, 1.1)]
+        assert np.isfinite(found).tolist() == holds
 
 
 @pytest.mark.parametrize("known", ["", "explained", "unexplained", "untested"])
 @pytest.mark.parametrize("limit", [{}, {"limit": 0.25}, {"limit": 2.0}])
 def test_verdicts(known, limit):
     """A known difference must be there, and keep its sizes and its sign."""
-    entry = {"reference": "maw1976/limit", **limit} | (
-        {"documented": {"as": known}} if known else {}
-    )
+    entry = {"reference": "maw1976/limit"} | limit
+    entry |= {"documented": {"as": known}} if known else {}
     differs = Verdict(f"{known} difference") if known else Verdict.DIVERGES
 
     def verdict(size, **bounds):
@@ -101,11 +94,8 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
     """Of points that all lie as far beside the curve: two sigmas farther must be too far."""
     known = {"kind": "digitised", "sigma_values": of_sigma}
     shifts = parameter * np.ones((1, number))  # an uncertain parameter moves all points
-    # Where p is 0.01.
-    largest = stats.chi2.isf(0.01, number)
-    if of_sigma:
-        largest = number * stats.f.isf(0.01, number, of_sigma)
-    far = np.sqrt(largest / number * (1 + parameter * number))
+    # There p is 0.01. The sigma of very many values is known.
+    far = np.sqrt(stats.f.isf(0.01, number, of_sigma or 1e9) * (1 + parameter * number))
 
     def verdict_at(sigmas, reference=known, **entry):
         residuals = Residuals(np.zeros(number), np.full(number, sigmas), np.zeros(number))
@@ -124,19 +114,19 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
 
 @pytest.mark.parametrize("values", [[3e-16, 0.0], [1.95, 2.0], [-0.5, 16.0]])
 def test_a_range_that_is_too_wide_is_refused(values):
-    """Once it is a hundred times what it holds."""
+    """Once it is a hundred times what it holds. Its ends are a sigma from its middle."""
     curves = {"a": {"x [1]": np.arange(2.0), "y [1]": np.array(values)}}
     least, largest = min(0.0, 100 * values[0]), max(values)
 
-    def measured(high, low=least):
+    def measured(low, high):
         entry = {"metric": "range", "columns": ["y [1]"], "range": [low, high]}
         return np.abs(measure(entry, {}, curves).residuals.sigmas).max()
 
-    assert measured(largest) == pytest.approx(1.0)  # half the width of the range from its middle
-    assert measured(99 * largest) <= 1.0
-    for low, high in ((least, 100 * largest), (least, 1e29 * largest), (-100 * largest, largest)):
+    assert measured(least, largest) == pytest.approx(1.0)
+    assert measured(least, 99 * largest) <= 1.0
+    for wide in ((least, 100 * largest), (least, 1e29 * largest), (-100 * largest, largest)):
         with pytest.raises(ValueError, match="a wider range tests nothing"):
-            measured(high, low)
+            measured(*wide)
 
 
 def test_chi_squared_is_that_of_a_fit_held_to_the_stated_parameters():
@@ -243,28 +233,23 @@ def test_a_row_has_what_was_measured(tmp_path):
     curves = {f"a{end}": {"x [s]": x, "y [N]": np.full(3, 0.5 + up)} for end, up in shifts.items()}
     csv_tables.write(path, curves)
     csv_tables.write_rows(tmp_path / "p.csv", ["x [s]", "y [N]"], [[0, 1.5], [1, 2.5], [2, -0.5]])
-    axes = [
-        {"column": name, "unit": unit, "range": [-9, 9], "sigma": 0.3}
-        for name, unit in ("xs", "yN")
-    ]
+    axis = {"range": [-9, 9], "sigma": 0.3}
     series = {"kind": "digitised", "path": tmp_path / "p.csv", "sigma_values": 4}
+    series |= {name: axis | {"column": name, "unit": unit} for name, unit in ("xs", "yN")}
     references = {
         "they/fact": {"value": 1.0, "tolerance": 0.25, "unit": "N"},
         "they/sign": {"less_than": 0.0, "unit": "1"},
-        "they/points": series | dict(zip("xy", axes, strict=True)),
+        "they/points": series,
         "they/later": {"kind": "awaited", "figure": "Fig. 1"},
     }
-    value = {
-        "metric": "landmark",
-        "landmark": {"kind": "value", "x": "x [s]", "y": "y [N]", "at": 1},
-    }
+    landmark = {"kind": "value", "x": "x [s]", "y": "y [N]", "at": 1}
+    value = {"metric": "landmark", "landmark": landmark}
     known = {"documented": {"as": "explained", "entry": "eq-1"}}
+    fact = {"reference": "they/fact", "regression": {"difference": [-0.6, -0.4]}}
     beside = {"metric": "distance", "reference": "they/points", "allowance": {"x": 0.0, "y": 0.4}}
     entries = {
         "law": {"metric": "small", "columns": ["y [N]"], "limit": 2.0},
-        "fact": {"reference": "they/fact", "regression": {"difference": [-0.6, -0.4]}}
-        | value
-        | known,
+        "fact": fact | value | known,
         "sign": {"reference": "they/sign"} | value,
         "points": beside,
         "same": beside | known | {"regression": {"rms": [2, 3]}},
