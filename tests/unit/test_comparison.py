@@ -145,18 +145,9 @@ def test_not_a_number_is_not_probable():
     assert not chi_squared([np.inf, 0.0]).p > 0.01
 
 
-def test_what_must_be_small_is_one_column_or_the_difference_of_two():
-    curves = {"a": {"x [1]": np.arange(2.0), "y": np.array([1.0, 2.0]), "z": np.array([1.0, 2.5])}}
-    both = measure({"metric": "small", "columns": ["y", "z"]}, {}, curves).residuals
-    assert both.x.tolist() == [0.0, 1.0] and both.sigmas.tolist() == [0.0, -0.5e12]
-    one = measure({"metric": "small", "columns": ["z"]}, {}, curves).residuals
-    assert one.sigmas.tolist() == [1.0, 2.5]
-
-
 @pytest.mark.parametrize(
     ("entry", "chosen"),
     [
-        ({}, [0, 1, 2, 3, 4, 5]),
         ({"regime": "initial stick"}, [0, 1]),
         ({"regime": "slip and stick"}, [2, 3]),
         ({"regime": "slip throughout"}, [4, 5]),
@@ -210,17 +201,21 @@ def test_a_contraction_is_of_the_curves_that_it_names():
 CELLS = """
 fig0-solved,as before,,,,,,,,,,,,,,
 law,right,3,,,,,0.5,0.5,0.5,0.5,,a,,,max <= 2
+pair,wrong,3,,,,,1.5e+12,1.5e+12,1.5,1.5,,a,,,max <= 1
 fact,explained difference,1,,,,,2,2,0.5,0.5,N,a,0.5,1 N,max <= 1
 sign,diverges,1,,,,,inf,inf,0.5,0.5,1,a,0.5,< 0,max <= 1
 points,inconclusive,3,10.8,3,4,0.12,2.83,4,1.41,2,N,a,,,ALLOWED
 same,diverges,3,10.8,3,4,0.12,2.83,4,1.41,2,N,a,,,ALLOWED
 later,awaited,,,,,,,,,,,a,,,
+both,wrong,4,,,,,3.16,4,1.58,2,,a,,,max <= 1
 none,wrong,,,,,,,,,,,a,,,
 """.replace("ALLOWED", "p > 0.01; the model may be off by x 0 s, y 0.4 N")
 NOTES = {
+    "pair": "largest for y [N] at x [s] = 0",
     "fact": "ledger: eq-1",
     "same": "ledger: eq-1; largest for y [N] of a at x [s] = 1",
     "later": "Fig. 1",
+    "both": "largest for y [N] of a at x [s] = 1",
     "none": "curve 'a' does not have the columns z",
 }
 
@@ -230,16 +225,22 @@ def test_a_row_has_what_was_measured(tmp_path):
     path, x = tmp_path / "a.csv", np.arange(3.0)
     shifts = {"": 0, "; e + 1 sigma": 0.5, "; e - 1 sigma": -0.25}
     shifts |= {"; each ball's mu + 1 sigma": 0.5, "; each ball's mu - 1 sigma": -0.5}
-    curves = {f"a{end}": {"x [s]": x, "y [N]": np.full(3, 0.5 + up)} for end, up in shifts.items()}
+    curves = {
+        f"a{end}": {"x [s]": x, "y [N]": np.full(3, 0.5 + shift), "v [m]": np.full(3, 2.0)}
+        for end, shift in shifts.items()
+    }
+    measured = [[0, 1.5, ""], [1, 2.5, ""], [2, -0.5, 4.0]]
+    csv_tables.write_rows(tmp_path / "p.csv", ["x [s]", "y [N]", "v [m]"], measured)
     csv_tables.write(path, curves)
-    csv_tables.write_rows(tmp_path / "p.csv", ["x [s]", "y [N]"], [[0, 1.5], [1, 2.5], [2, -0.5]])
     axis = {"range": [-9, 9], "sigma": 0.3}
     series = {"kind": "digitised", "path": tmp_path / "p.csv", "sigma_values": 4}
-    series |= {name: axis | {"column": name, "unit": unit} for name, unit in ("xs", "yN")}
+    axes = {name: axis | {"column": name, "unit": unit} for name, unit in ("xs", "yN", "vm")}
+    series |= {"x": axes["x"], "y": axes["y"]}
     references = {
         "they/fact": {"value": 1.0, "tolerance": 0.25, "unit": "N"},
         "they/sign": {"less_than": 0.0, "unit": "1"},
         "they/points": series,
+        "they/both": series | {"kind": "computed", "y": [axes["y"], axes["v"]]},
         "they/later": {"kind": "awaited", "figure": "Fig. 1"},
     }
     landmark = {"kind": "value", "x": "x [s]", "y": "y [N]", "at": 1}
@@ -249,11 +250,13 @@ def test_a_row_has_what_was_measured(tmp_path):
     beside = {"metric": "distance", "reference": "they/points", "allowance": {"x": 0.0, "y": 0.4}}
     entries = {
         "law": {"metric": "small", "columns": ["y [N]"], "limit": 2.0},
+        "pair": {"metric": "small", "columns": ["y [N]", "v [m]"]},
         "fact": fact | value | known,
         "sign": {"reference": "they/sign"} | value,
         "points": beside,
         "same": beside | known | {"regression": {"rms": [2, 3]}},
         "later": beside | {"reference": "they/later"},
+        "both": beside | {"reference": "they/both"},
         "none": {"metric": "small", "columns": ["z"]},
     }
     entries = {name: entry | {"curve": "a"} for name, entry in entries.items()}
@@ -261,11 +264,12 @@ def test_a_row_has_what_was_measured(tmp_path):
     cells = [[f"{row[key]}" for key in ("comparison", "verdict", *COLUMNS[5:-3])] for row in rows]
     assert [",".join(own) for own in cells] == CELLS.split("\n")[1:-1]
     assert {row["comparison"]: row["note"] for row in rows if row["note"]} == NOTES
-    assert rows[2]["regression"] == "-0.6 <= difference <= -0.4"
+    assert rows[3]["regression"] == "-0.6 <= difference <= -0.4"
     write(rows, tmp_path / "verdicts.csv", tmp_path / "residuals.csv")
-    residuals = csv_tables.read(tmp_path / "residuals.csv")["points"]
-    assert residuals["at"].tolist() == [0, 1, 2]
-    assert residuals["distance [sigma]"].tolist() == pytest.approx([2, 4, -2])
+    residuals = csv_tables.read(tmp_path / "residuals.csv")
+    assert residuals["fact"]["quantity"].tolist() == ["y [N]"]
+    assert residuals["points"]["at"].tolist() == [0, 1, 2]
+    assert residuals["points"]["distance [sigma]"].tolist() == pytest.approx([2, 4, -2])
     curves["a"]["y [N]"][1] = np.inf
     csv_tables.write(path, curves)
     for row in compare("fig0", entries, references, path, 0.01):

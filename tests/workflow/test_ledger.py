@@ -107,10 +107,7 @@ def test_a_check_that_crashes_no_longer_holds(solver, name, problem, monkeypatch
 
 
 def test_the_second_verdict_never_changes_the_first(rows, measured):
-    """Counts of the first are those without it, and each entry keeps what its equations gave.
-
-    It holds if both verdicts hold, and says of each why it does not.
-    """
+    """Counts of the first are those without it, and each entry keeps what its equations gave."""
     with_both = Counter(row["verdict"] for row in rows.values())
     assert with_both == Counter(entry["verdict"] for entry in ENTRIES.values())
     assert {name: row["in_nature"] for name, row in rows.items() if row["in_nature"]} == {
@@ -119,6 +116,7 @@ def test_the_second_verdict_never_changes_the_first(rows, measured):
     name = "restitution-leaves-peak"
     alone = checking.check({name: by_equations(name)})[0]
     assert all(rows[name][key] == alone[key] for key in alone if "nature" not in key)
+    # It holds if both verdicts do, and says of each why it does not.
     own = {"": {}, "recorded as confirmed, found wrong": {"confirms": {"at_least": 9.0}}}
     nature = {"": {}, "in nature: recorded as stands, found fails": {"verdict": "stands"}}
     for why in product(own, nature):
