@@ -76,12 +76,6 @@ def line(name, curves):
     return list(table["lumped, rubber" if name == RUBBER else words[0]].values())[:2]
 
 
-def on_the_curve(name, curves, points):
-    """Points evenly spread over the figure."""
-    x = np.linspace(0.5, 7.5, points) if name == RUBBER else np.linspace(5.0, 80.0, points)
-    return x, np.interp(x, *line(name, curves))
-
-
 OFF = {
     RUBBER: 0.2,  # mu v2(0), a tenth of the largest velocity
     f"{LEWIS}/normal_force": 7.0,  # N, of 94
@@ -92,7 +86,8 @@ OFF = {
 @pytest.mark.parametrize("name", AWAITED)
 def test_nine_points_that_are_all_off_diverge(name, curves, judged):
     """Those that scatter about the curve agree."""
-    x, y = on_the_curve(name, curves, 9)
+    x = np.linspace(0.5, 7.5, 9) if name == RUBBER else np.linspace(5.0, 80.0, 9)
+    y = np.interp(x, *line(name, curves))
     scatter = 0.1 * OFF[name] * np.random.default_rng(3).normal(size=9)
     for shift, verdict in ((scatter, "agrees"), (OFF[name], "diverges"), (-OFF[name], "diverges")):
         row = judged(name, x, y + shift)
