@@ -1,70 +1,73 @@
 """The table with a row for each figure: what stands in its cells."""
 
-import pytest
-
 from stronge1994.verdict_tables import figure_table, verdict_table
+from stronge1994.verdict_tables.figure_table import OTHER_MODELS
 from stronge1994.verdict_tables.verdict_table import QUESTIONS
 
 SOLVED, PRINTED, OTHERS = QUESTIONS
 SIZES = {
     "points": "4", "rms [sigma]": "2", "max [sigma]": "3", "rms [axis units]": "0.02",
-    "max [axis units]": "0.03", "unit": "mu v2(0)",
+    "max [axis units]": "0.03", "unit": "mu v2(0)", "reference": "maw1976/rebound",
 }  # fmt: skip
 # What a run says of a figure whose curves could not be made.
 CRASHED = dict.fromkeys(SIZES, "") | {"note": "no curves: ArithmeticError: oh"}
+# Of entries of the ledger; of more points in other units; of a law; of a stated sign that is right.
+LIMIT = {"note": "ledger: limit", "found": "4.6", "stated": "5.8 mu v2(0)"}
+EQ_15 = {"note": "ledger: eq-15; largest at 3"}
+FAR = {"points": "12", "rms [axis units]": "0.04", "rms [sigma]": "1"}
+LAW = {"reference": "", "unit": "", "max [sigma]": "9", "max [axis units]": "7"}
+SIGN = {"reference": "cross2014/sign", "points": "1", "rms [sigma]": "0"}
+EXACT = {"max [sigma]": "0.0009", "max [axis units]": "0"}
+ROWS = [
+    ("fig6", SOLVED, "right", {"max [sigma]": "0.4", "max [axis units]": "4e-3"}),
+    ("fig6", SOLVED, "right", {"max [sigma]": "0.1"}),
+    ("fig6", SOLVED, "right", LAW),
+    ("fig6", SOLVED, "unexplained difference", {}),
+    ("fig6", PRINTED, "agrees", {}),
+    ("fig6", PRINTED, "agrees", {}),
+    ("fig6", PRINTED, "explained difference", EQ_15),
+    ("fig6", PRINTED, "explained difference", EQ_15 | FAR),
+    ("fig6", PRINTED, "explained difference", LIMIT),
+    ("fig6", OTHERS, "agrees", {}),
+    ("fig6", OTHERS, "untested difference", FAR),
+    ("fig6", OTHERS, "inconclusive", FAR | {"reference": "maw1976/spin", "unit": "1"}),
+    ("fig6", OTHERS, "agrees", SIGN),
+    ("fig6", OTHERS, "awaited", CRASHED | {"reference": "johnson1983/sphere"}),
+    *(("fig6", OTHERS, "agrees", {"curve": f"{model}, e = 0.5"}) for model in OTHER_MODELS),
+    ("rod", SOLVED, "right", {}),
+    ("rod", SOLVED, "wrong", {}),
+    ("rod", PRINTED, "diverges", {"note": "largest at 3"}),
+    ("rod", OTHERS, "explained difference", {}),
+    ("rod", OTHERS, "diverges", {"curve": f"{OTHER_MODELS[0]}, e = 0.5"}),
+    ("fig7", SOLVED, "wrong", CRASHED),
+    ("fig7", PRINTED, "diverges", CRASHED),
+    ("fig7", OTHERS, "diverges", CRASHED | {"reference": "maw1976/rebound"}),
+    ("scene_a", SOLVED, "right", EXACT),
+    ("scene_b", SOLVED, "right", EXACT),
+]
+# Of the largest difference where it is solved, in units and sigmas, but a law has no such unit or
+# sigma. Root mean squares of all points of an entry. Beside others of the first series of a source
+# in its unit, and of all of them in sigmas; of other models than the paper's only what fails.
+TEXT = """\
+fig6   3e-02 0.4   2 agree                 maw1976 28 0.036 1.2 untested
+       1 known     eq-15: rms 0.036        cross2014 1 agrees
+                   limit: 4.6, not 5.8     awaited: johnson1983
+rod           1 WRONG     DIVERGES 19: rms maw1976 8 0.02 2 DIVERGES
+                          0.02
+fig7   1 WRONG     DIVERGES 23             maw1976 DIVERGES
+scenes        0     0     -                -"""
 
 
-def row(question, verdict, figure="fig6", **cells):
-    cells = {"figure": figure, "question": question, "verdict": verdict} | SIZES | cells
-    cells = {"comparison": f"{figure}-rebound", "reference": "maw1976/rebound"} | cells
-    return dict.fromkeys(verdict_table.COLUMNS, "") | cells
-
-
-def cells(*rows):
-    """The cells of the only figure: solved right, as printed, beside others, awaited."""
-    ((_, *found),) = figure_table.of_run(rows)
-    return found
-
-
-@pytest.mark.parametrize(
-    ("question", "verdict"), [(SOLVED, "wrong"), (PRINTED, "diverges"), (OTHERS, "diverges")]
-)
-@pytest.mark.parametrize("how", [{}, CRASHED], ids=["solved", "crashed"])
-def test_a_failing_row_shows_in_its_cell(question, verdict, how):
-    good = "right" if question == SOLVED else "agrees"
-    bad = row(question, verdict, comparison="fig6-bad", **how)
-    found = dict(zip(QUESTIONS, cells(row(question, good), bad), strict=False))
-    item = found.pop(question)[-1]
-    assert item.verdict == verdict and "fig6-bad" in item.rows
-    assert not any(found.values())
-    words = figure_table.text(figure_table.of_run([row(question, good), bad]))
-    assert verdict.upper() in words
-
-
-def test_other_models_do_not_stand_beside_others_unless_they_fail_and_then_first():
-    paper = row(OTHERS, "explained difference", curve="lumped, e = 0.5", comparison="fig6-paper")
-    curves = [f"{model}, e = 0.5" for model in figure_table.OTHER_MODELS]
-    other = [
-        row(OTHERS, "agrees", curve=curve, comparison=f"fig6-{place}")
-        for place, curve in enumerate(curves)
+def test_the_table_says_what_every_comparison_has_found():
+    rows = [
+        dict.fromkeys(verdict_table.COLUMNS, "")
+        | {"figure": figure, "question": question, "verdict": verdict, **SIZES, **cells}
+        | {"comparison": f"{figure}-{place}"}
+        for place, (figure, question, verdict, cells) in enumerate(ROWS)
     ]
-    (item,) = cells(paper, *other)[2]
-    assert item.rows == ["fig6-paper"] and item.verdict == "explained difference"
-    assert cells(*other)[2] == []
-    fails = other[0] | {"verdict": "diverges"}
-    (item,) = cells(paper, fails, *other[1:])[2]
-    assert item.rows == ["fig6-0", "fig6-paper"] and item.verdict == "diverges"
-
-
-def test_a_cell_says_the_largest_difference_and_the_distance_of_all_points():
-    two = row(SOLVED, "right") | {"max [axis units]": "0.5", "max [sigma]": "0.1"}
-    (item,) = cells(row(SOLVED, "right"), two)[0]
-    assert (item.points, item.size, item.sigmas) == ("2", "5e-01", "3")
-    far = row(OTHERS, "untested difference") | {"points": "12", "rms [axis units]": "0.04"}
-    # Another series may have another unit: it counts for the points and the sigmas only.
-    spin = {"reference": "maw1976/spin", "unit": "1/s", "rms [axis units]": "9", "points": "16"}
-    other = row(OTHERS, "agrees") | spin | {"rms [sigma]": "3"}
-    (item,) = cells(row(OTHERS, "agrees"), far, other)[2]
-    rms, sigmas = ((4 * 0.02**2 + 12 * 0.04**2) / 16) ** 0.5, ((16 * 2**2 + 16 * 3**2) / 32) ** 0.5
-    assert (item.points, item.size, item.unit) == ("32", f"{rms:.2g}", "mu v2(0)")
-    assert (item.sigmas, item.verdict) == (f"{sigmas:.2g}", "untested difference")
+    table = figure_table.of_run(rows)
+    assert figure_table.text(table) == f"{figure_table.HEADER}\n{TEXT}"
+    # The worst comparison of a part comes first.
+    places = [[int(name.split("-")[1]) for name in part.rows] for part in table[0].others]
+    assert places == [[10, 11, 9], [12]] and table[1].others[0].rows == ["rod-21", "rod-20"]
+    assert table[0].others[0].unit == "mu v2(0)"

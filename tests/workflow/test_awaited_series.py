@@ -35,16 +35,6 @@ def filled(name, points):
     return text.replace(awaited, f"  {series}:\n    kind: digitised\n{said}")
 
 
-def written(name, x, y):
-    """Text of the table of an awaited series."""
-    header = (
-        "angle [deg],peak_force [N]"
-        if LEWIS in name
-        else "incidence [mu v2(0)],velocity [mu v2(0)]"
-    )
-    return "\n".join([header, *(f"{a:.6f},{b:.6f}" for a, b in zip(x, y, strict=True))]) + "\n"
-
-
 @pytest.fixture(scope="module")
 def curves(inventory, tmp_path_factory):
     """Tables of Figs 5 and 8 as the config has them: of Fig. 5 the curve that is judged."""
@@ -61,19 +51,20 @@ def curves(inventory, tmp_path_factory):
 
 @pytest.fixture
 def judged(inventory, curves, tmp_path):
-    """Row of the verdict table for points, after a change of the comparison."""
+    """Row of the verdict table for points."""
 
-    def row(name, x, y, **change):
+    def row(name, x, y):
         source, figure = name.split("/")[0], AWAITED[name].split("-")[0]
         folder = tmp_path / source
         folder.mkdir(exist_ok=True)
-        (tmp_path / f"{name}.csv").write_text(written(name, x, y))
+        series = inventory[source]["series"][name.split("/")[1]]
+        header = [reference_data.column_name(series[axis]) for axis in "xy"]
+        csv_tables.write_rows(tmp_path / f"{name}.csv", header, zip(x, y, strict=True))
         (folder / "source.yaml").write_text(filled(name, len(x)))
         found = inventory | {source: reference_data.load(folder, schema("source"))}
-        entry = CONFIG["comparisons"][AWAITED[name]] | change
         references = plan.references(CONFIG, found, figure)
         path, significance = curves / f"{figure}.csv", CONFIG["significance"]
-        rows = {AWAITED[name]: entry}
+        rows = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]]}
         return compare(figure, rows, references, path, significance)[1]
 
     return row
@@ -86,12 +77,6 @@ def line(name, curves):
     return list(table["lumped, rubber" if name == RUBBER else words[0]].values())[:2]
 
 
-def on_the_curve(name, curves, points):
-    """Points evenly spread over the figure."""
-    x = np.linspace(0.5, 7.5, points) if name == RUBBER else np.linspace(5.0, 80.0, points)
-    return x, np.interp(x, *line(name, curves))
-
-
 OFF = {
     RUBBER: 0.2,  # mu v2(0), a tenth of the largest velocity
     f"{LEWIS}/normal_force": 7.0,  # N, of 94
@@ -102,7 +87,8 @@ OFF = {
 @pytest.mark.parametrize("name", AWAITED)
 def test_nine_points_that_are_all_off_diverge(name, curves, judged):
     """Those that scatter about the curve agree."""
-    x, y = on_the_curve(name, curves, 9)
+    x = np.linspace(0.5, 7.5, 9) if name == RUBBER else np.linspace(5.0, 80.0, 9)
+    y = np.interp(x, *line(name, curves))
     scatter = 0.1 * OFF[name] * np.random.default_rng(3).normal(size=9)
     for shift, verdict in ((scatter, "agrees"), (OFF[name], "diverges"), (-OFF[name], "diverges")):
         row = judged(name, x, y + shift)

@@ -14,9 +14,8 @@ import numpy as np
 import pytest
 import yaml
 
-from planarimpact import continuum, lumped, models
-from stronge1994 import csv_tables, curve_names, plan
-from stronge1994.figures.inelastic import curves as inelastic
+from planarimpact import continuum, lumped
+from stronge1994 import curve_names, plan
 from stronge1994.figures.shared.curves import beside, solving
 from stronge1994.judging import compare
 from stronge1994.judging import rows as judging_rows
@@ -297,29 +296,3 @@ def test_a_fault_between_the_points_of_reference_is_noticed(name, curve, rows, t
     velocity[rows] = -velocity[rows] - 0.1
     wrong = curves | {curve: curves[curve] | {column: velocity}}
     assert judged(name, [f"{name}-contraction"], wrong)
-
-
-@pytest.mark.parametrize("power", [1, -2])
-def test_a_wrong_repair_of_the_lumped_model_is_noticed(
-    power, table_of, judged, inventory, monkeypatch
-):
-    """The model has e^2 zeta^2; here e has another power."""
-    model = "lumped.unloading-stiffness"
-
-    def rebound(_, x, beta, zeta2, e):
-        return lumped.rebound(x, beta, np.power(e, power) * zeta2, e)
-
-    monkeypatch.setattr(inelastic, "MODELS", (model,))
-    monkeypatch.setattr(models, "rebound", rebound)
-    wrong = table_of("inelastic") | inelastic.curves(**settings_of("inelastic", inventory))
-    names = {f"inelastic-{n}" for n in (f"{model}-pairs", "pairs", "rebound")}
-    names.add("inelastic-tangential-restitution")
-    assert judged("inelastic", names, wrong) == names
-
-
-def test_curves_that_are_not_finite_are_wrong(tmp_path):
-    path = tmp_path / "fig6.csv"
-    columns = {"incidence [mu v2(0)]": [0.0, 1.0], "velocity [mu v2(0)]": [0.0, np.nan]}
-    csv_tables.write(path, {"e = 1": {name: np.array(values) for name, values in columns.items()}})
-    row = compare("fig6", {}, {}, path, 0.01)[0]
-    assert row["verdict"] == "wrong" and "allowed are finite numbers" in row["note"]

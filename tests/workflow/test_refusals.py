@@ -4,50 +4,12 @@ What a start of Snakemake checks is checked here in the process, and in tests/re
 starts show that it does.
 """
 
-import contextlib
 import re
 
-import numpy as np
-
-from stronge1994.plan import config as configuration
-from tests.workflow.project import ROOT, config, ledger, sources
+from tests.workflow.project import ROOT
 
 README = (ROOT / "workflow/README.md").read_text(encoding="utf-8")
 TROUBLE = README.split("## Troubleshooting")[1].split("\n## ")[0]
-
-
-def test_a_bound_is_refused_before_it_says_nothing():
-    """Of one comparison for each metric it is widened until it is refused. What a `range` may be
-    depends on what it holds: see tests/unit/test_comparison.py.
-    """
-
-    def refused(name, key, new):
-        alone = {"comparisons": {name: config()["comparisons"][name] | {key: new}}}
-        with contextlib.chdir(ROOT):
-            try:
-                configuration.check_config(config() | alone, sources(), ledger())
-            except configuration.ConfigError as error:
-                assert f"{name}.{key}" in str(error) and "\n" not in str(error)
-                return True
-        return False
-
-    tried = {(entry["metric"], *entry): name for name, entry in config()["comparisons"].items()}
-    for name in tried.values():
-        entry = config()["comparisons"][name]
-        for part, (low, high) in entry.get("regression", {}).items():
-            ends, far = np.array([low, high]), int(abs(high) > abs(low))
-            while not refused(name, "regression", {part: ends.tolist()}):
-                # A difference that doubles, from wherever it was within them, leaves them.
-                assert np.abs(ends).max() < 2 * np.abs(ends).min()
-                ends[far] *= 1.3
-            for wide in ([low, 1e9], [-1e9, high], [0.0, abs(high)]):
-                assert refused(name, "regression", {part: wide}), wide
-        for part, size in entry.get("allowance", {}).items():
-            for factor in (4, 1e9) if size else ():
-                assert refused(name, "allowance", entry["allowance"] | {part: factor * size})
-        for limit in (0.02, 3.0, 1e9):
-            if "limit" in entry:
-                assert refused(name, "limit", limit) == (entry["metric"] != "small" or limit > 2)
 
 
 def explained(result):

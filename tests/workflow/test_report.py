@@ -19,7 +19,7 @@ from stronge1994.pages import key_numbers, note, which_model
 from stronge1994.pages import report as write_report
 from stronge1994.plan import config as configuration
 from stronge1994.verdict_tables import verdict_table
-from tests.unit.test_figure_table import row
+from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat
 from tests.workflow.project import ROOT, config
 
@@ -238,7 +238,9 @@ CELLS = {
     ("solved", "wrong", "solved right"): {"figure": "trade", "note": "<oh>"},
 }
 VERDICTS = [
-    row(question, verdict, comparison=f"fig6-{name}", **SAME | cells)
+    dict.fromkeys(verdict_table.COLUMNS, "")
+    | {"figure": "fig6", "comparison": f"fig6-{name}", "question": question, "verdict": verdict}
+    | {**SIZES, **SAME, **cells}
     for (name, verdict, question), cells in CELLS.items()
 ]
 TOLD = """
