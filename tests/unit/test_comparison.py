@@ -106,8 +106,9 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
         agrees, noticed = abs(sigmas) < far, far < 2.0 - abs(sigmas)
         good = Verdict.AGREES if noticed else Verdict.INCONCLUSIVE
         assert verdict_at(sigmas) == (good if agrees else Verdict.DIVERGES)
-        as_before = Verdict.UNCHANGED if agrees else Verdict.DIVERGES
-        assert verdict_at(sigmas, fitted=True) == as_before
+        assert verdict_at(sigmas, fitted=True) == (
+            Verdict.UNCHANGED if agrees else Verdict.DIVERGES
+        )
     for size, verdict in ((1.0, Verdict.RIGHT), (1.001, Verdict.WRONG)):
         assert {verdict_at(size, {"kind": "computed"}), verdict_at(-size, {})} == {verdict}
 
@@ -138,11 +139,8 @@ def test_chi_squared_is_that_of_a_fit_held_to_the_stated_parameters():
 
     fitted = minimize(loss, np.zeros(2), tol=1e-12).fun
     assert chi_squared(distance, shifts).value == pytest.approx(fitted, rel=1e-9)
-
-
-def test_not_a_number_is_not_probable():
-    assert not chi_squared([np.nan, 0.0]).p > 0.01
-    assert not chi_squared([np.inf, 0.0]).p > 0.01
+    for wrong in (np.nan, np.inf):  # is not probable
+        assert not chi_squared([wrong, 0.0]).p > 0.01
 
 
 @pytest.mark.parametrize(
@@ -151,8 +149,7 @@ def test_not_a_number_is_not_probable():
         ({"regime": "initial stick"}, [0, 1]),
         ({"regime": "slip and stick"}, [2, 3]),
         ({"regime": "slip throughout"}, [4, 5]),
-        ({"points": {"reader": "me"}}, [0, 2, 4]),
-        ({"points": {"reader": "me", "run": "1"}, "regime": "slip and stick"}, [2]),
+        ({"points": {"reader": "me", "run": "1"}}, [0, 2]),
         ({"curve": "e = 1"}, [1, 3]),
         ({"curve": "e = 1", "as_printed": True}, [1, 3, 5]),
     ],

@@ -56,6 +56,10 @@ rod           1 WRONG     DIVERGES 19: rms maw1976 8 0.02 2 DIVERGES
                           0.02
 fig7   1 WRONG     DIVERGES 23             maw1976 DIVERGES
 scenes        0     0     -                -"""
+COUNTS = """\
+solved right: 2 wrong, 1 unexplained, 6 right
+as printed: 2 diverges, 3 explained, 2 agrees
+beside others: 2 diverges, 1 untested, 1 explained, 1 awaited, 1 inconclusive, 5 agrees"""
 
 
 def test_the_table_says_what_every_comparison_has_found():
@@ -71,3 +75,4 @@ def test_the_table_says_what_every_comparison_has_found():
     places = [[int(name.split("-")[1]) for name in part.rows] for part in table[0].others]
     assert places == [[10, 11, 9], [12]] and table[1].others[0].rows == ["rod-21", "rod-20"]
     assert table[0].others[0].unit == "mu v2(0)"
+    assert verdict_table.counts(rows) == COUNTS

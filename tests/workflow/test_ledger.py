@@ -105,6 +105,8 @@ def test_a_check_that_crashes_no_longer_holds(solver, name, problem, monkeypatch
     monkeypatch.setattr(*solver, crash)
     row = checking.check({name: ENTRIES[name]})[0]
     assert (row["holds"], row["problem"]) == ("no", problem)
+    said = f"  no longer holds: {name} ({ENTRIES[name]['where']}): {problem}"
+    assert outcome.summary([row]).splitlines()[-1] == said
 
 
 def test_the_second_verdict_never_changes_the_first(rows, measured):
