@@ -94,7 +94,7 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
     """Of points that all lie as far beside the curve: two sigmas farther must be too far."""
     known = {"kind": "digitised", "sigma_values": of_sigma}
     shifts = parameter * np.ones((1, number))  # an uncertain parameter moves all points
-    # There p is 0.01. The sigma of very many values is known.
+    # Where p is 0.01. A sigma that very many values gave is as good as known.
     far = np.sqrt(stats.f.isf(0.01, number, of_sigma or 1e9) * (1 + parameter * number))
 
     def verdict_at(sigmas, reference=known, **entry):
@@ -103,12 +103,11 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
         return judge({"reference": "a/b"} | entry, reference, measured, 0.01)
 
     for sigmas in (-1.0, -0.5, 0.0, 0.5, 1.0, 0.999 * far, -0.999 * far, 1.001 * far, -1.001 * far):
-        agrees, noticed = abs(sigmas) < far, far < 2.0 - abs(sigmas)
-        good = Verdict.AGREES if noticed else Verdict.INCONCLUSIVE
-        assert verdict_at(sigmas) == (good if agrees else Verdict.DIVERGES)
-        assert verdict_at(sigmas, fitted=True) == (
-            Verdict.UNCHANGED if agrees else Verdict.DIVERGES
-        )
+        expected = [Verdict.DIVERGES] * 2
+        if abs(sigmas) < far:
+            noticed = far < 2.0 - abs(sigmas)
+            expected = [Verdict.AGREES if noticed else Verdict.INCONCLUSIVE, Verdict.UNCHANGED]
+        assert [verdict_at(sigmas), verdict_at(sigmas, fitted=True)] == expected
     for size, verdict in ((1.0, Verdict.RIGHT), (1.001, Verdict.WRONG)):
         assert {verdict_at(size, {"kind": "computed"}), verdict_at(-size, {})} == {verdict}
 

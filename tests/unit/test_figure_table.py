@@ -2,9 +2,8 @@
 
 from stronge1994.verdict_tables import figure_table, verdict_table
 from stronge1994.verdict_tables.figure_table import OTHER_MODELS
-from stronge1994.verdict_tables.verdict_table import QUESTIONS
 
-SOLVED, PRINTED, OTHERS = QUESTIONS
+SOLVED, PRINTED, OTHERS = verdict_table.QUESTIONS
 SIZES = {
     "points": "4", "rms [sigma]": "2", "max [sigma]": "3", "rms [axis units]": "0.02",
     "max [axis units]": "0.03", "unit": "mu v2(0)", "reference": "maw1976/rebound",
