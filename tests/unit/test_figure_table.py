@@ -44,9 +44,8 @@ ROWS = [
     ("scene_a", SOLVED, "right", EXACT),
     ("scene_b", SOLVED, "right", EXACT),
 ]
-# Of the largest difference where it is solved, in units and sigmas, but a law has no such unit or
-# sigma. Root mean squares of all points of an entry. Beside others of the first series of a source
-# in its unit, and of all of them in sigmas; of other models than the paper's only what fails.
+# Solved right: the largest difference; a law has no sigma. As printed: of all points of an entry.
+# Beside others: of the first series, and of all in sigmas; other models only where they fail.
 TEXT = """\
 fig6   3e-02 0.4   2 agree                 maw1976 28 0.036 1.2 untested
        1 known     eq-15: rms 0.036        cross2014 1 agrees

@@ -14,8 +14,7 @@ from stronge1994.judging import compare
 from tests.workflow.project import ROOT, config, schema
 
 CONFIG = config()
-JOHNSON, LEWIS = "johnson1983", "lewis_rogers1988"
-RUBBER = f"{JOHNSON}/rubber_sphere"
+RUBBER, LEWIS = "johnson1983/rubber_sphere", "lewis_rogers1988"
 # The awaited series, and what is compared with each.
 AWAITED = {
     RUBBER: "fig5-rubber-sphere",
