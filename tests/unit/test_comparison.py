@@ -5,7 +5,6 @@ import pytest
 from scipy import stats
 from scipy.optimize import minimize
 
-from planarimpact import lumped
 from stronge1994 import csv_tables
 from stronge1994.goodness import chi_squared
 from stronge1994.judging import compare, landmarks, write
@@ -16,8 +15,9 @@ from stronge1994.judging.distances import (
     vertex_residuals,
 )
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import limits_of_regimes, points
+from stronge1994.judging.points import points
 from stronge1994.judging.verdicts import judge
+from stronge1994.verdict_tables import verdict_table
 from stronge1994.verdict_tables.verdict_table import COLUMNS, FAILS, Verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
@@ -51,8 +51,8 @@ def test_landmarks_of_a_curve_are_where_it_gets_there_to_rounding():
 
 
 def test_facts():
-    for found, distance in ((21.0, -0.5), (20.0, 0.0), (15.0, 2.5)):
-        assert fact_residuals(found, {"value": 20.0, "tolerance": 2.0}).sigmas[0] == distance
+    about = {"value": 20.0, "tolerance": 2.0}
+    assert [fact_residuals(found, about).sigmas[0] for found in (21.0, 15.0)] == [-0.5, 2.5]
     for kind, holds in (
         ("less_than", [True, False, False]),
         ("greater_than", [False, False, True]),
@@ -168,14 +168,6 @@ def test_a_comparison_is_of_the_points_that_it_names(entry, chosen, axis, tmp_pa
     assert points(entry, reference | {"parameters": groups})["row"].tolist() == chosen
 
 
-@pytest.mark.parametrize("e", [1.0, 0.7, 0.3])
-@pytest.mark.parametrize("zeta2", [1.21, 3.4, 5.0])  # 5.0 is above the mass ratio
-def test_limits_of_regimes_are_those_of_the_solver(zeta2, e):
-    """They are worked out apart, so that no judge asks what it judges."""
-    limits = limits_of_regimes(3.5, zeta2, e)
-    assert limits == pytest.approx([zeta2, lumped.slip_throughout_limit(3.5, zeta2, e)], rel=1e-14)
-
-
 def test_a_contraction_is_of_the_curves_that_it_names():
     """Neighbours of one curve leave further apart than they arrive; the worst of each place counts.
 
@@ -261,6 +253,13 @@ def test_a_row_has_what_was_measured(tmp_path):
     assert [",".join(own) for own in cells] == CELLS.split("\n")[1:-1]
     assert {row["comparison"]: row["note"] for row in rows if row["note"]} == NOTES
     assert rows[3]["regression"] == "-0.6 <= difference <= -0.4"
+    said = {row["comparison"]: verdict_table.measured(row) for row in rows}
+    assert (said["law"], said["later"]) == ("rms 0.5, max 0.5 sigma", "")
+    assert (said["fact"], said["sign"]) == ("0.5 (stated 1 N)", "0.5 (stated < 0)")
+    printed = rows[5] | {"question": "as printed", "p": ""}
+    assert verdict_table.measured(printed) == "rms 1.41, max 2 N"
+    changed = "chi^2 10.8 of 3, p = 0.12; allowed is a difference, and as before 2 <= rms <= 3"
+    assert verdict_table.why(rows[6]) == f"{NOTES['same']}: {changed}"
     write(rows, tmp_path / "verdicts.csv", tmp_path / "residuals.csv")
     residuals = csv_tables.read(tmp_path / "residuals.csv")
     assert residuals["fact"]["quantity"].tolist() == ["y [N]"]
