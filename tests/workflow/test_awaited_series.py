@@ -61,9 +61,8 @@ def judged(inventory, curves, tmp_path):
         (folder / "source.yaml").write_text(filled(name, len(x)))
         found = inventory | {source: reference_data.load(folder, schema("source"))}
         references = plan.references(CONFIG, found, figure)
-        path, significance = curves / f"{figure}.csv", CONFIG["significance"]
         rows = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]]}
-        return compare(figure, rows, references, path, significance)[1]
+        return compare(figure, rows, references, curves / f"{figure}.csv", CONFIG["significance"])[1]
 
     return row
 
