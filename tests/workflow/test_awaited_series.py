@@ -61,8 +61,8 @@ def judged(inventory, curves, tmp_path):
         (folder / "source.yaml").write_text(filled(name, len(x)))
         found = inventory | {source: reference_data.load(folder, schema("source"))}
         references = plan.references(CONFIG, found, figure)
-        rows = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]]}
-        return compare(figure, rows, references, curves / f"{figure}.csv", CONFIG["significance"])[1]
+        path, rows = curves / f"{figure}.csv", {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]]}
+        return compare(figure, rows, references, path, CONFIG["significance"])[1]
 
     return row
 
