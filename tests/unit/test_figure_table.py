@@ -31,6 +31,7 @@ ROWS = [
     ("fig6", OTHERS, "untested difference", FAR),
     ("fig6", OTHERS, "inconclusive", FAR | {"reference": "maw1976/spin", "unit": "1"}),
     ("fig6", OTHERS, "agrees", SIGN),
+    ("fig6", OTHERS, "agrees", SIGN | {"reference": "maw1976/sign"}),
     ("fig6", OTHERS, "awaited", CRASHED | {"reference": "johnson1983/sphere"}),
     *(("fig6", OTHERS, "agrees", {"curve": f"{model}, e = 0.5"}) for model in OTHER_MODELS),
     ("rod", SOLVED, "right", {}),
@@ -47,17 +48,17 @@ ROWS = [
 # Solved right: the largest difference; a law has no sigma. As printed: of all points of an entry.
 # Beside others: of the first series, and of all in sigmas; other models only where they fail.
 TEXT = """\
-fig6   3e-02 0.4   2 agree                 maw1976 28 0.036 1.2 untested
+fig6   3e-02 0.4   2 agree                 maw1976 29 0.036 1.2 untested
        1 known     eq-15: rms 0.036        cross2014 1 agrees
                    limit: 4.6, not 5.8     awaited: johnson1983
-rod           1 WRONG     DIVERGES 19: rms maw1976 8 0.02 2 DIVERGES
+rod           1 WRONG     DIVERGES 20: rms maw1976 8 0.02 2 DIVERGES
                           0.02
-fig7   1 WRONG     DIVERGES 23             maw1976 DIVERGES
+fig7   1 WRONG     DIVERGES 24             maw1976 DIVERGES
 scenes        0     0     -                -"""
 COUNTS = """\
 solved right: 2 wrong, 1 unexplained, 6 right
 as printed: 2 diverges, 3 explained, 2 agrees
-beside others: 2 diverges, 1 untested, 1 explained, 1 awaited, 1 inconclusive, 5 agrees"""
+beside others: 2 diverges, 1 untested, 1 explained, 1 awaited, 1 inconclusive, 6 agrees"""
 
 
 def test_the_table_says_what_every_comparison_has_found():
@@ -69,8 +70,7 @@ def test_the_table_says_what_every_comparison_has_found():
     ]
     table = figure_table.of_run(rows)
     assert figure_table.text(table) == f"{figure_table.HEADER}\n{TEXT}"
-    # The worst comparison of a part comes first.
     places = [[int(name.split("-")[1]) for name in part.rows] for part in table[0].others]
-    assert places == [[10, 11, 9], [12]] and table[1].others[0].rows == ["rod-21", "rod-20"]
-    assert table[0].others[0].unit == "mu v2(0)"
-    assert verdict_table.counts(rows) == COUNTS
+    assert places == [[10, 11, 9, 13], [12]]  # the worst first
+    assert [item.rows for item in table[1].others] == [["rod-22", "rod-21"]]
+    assert table[0].others[0].unit == "mu v2(0)" and verdict_table.counts(rows) == COUNTS
