@@ -5,7 +5,6 @@ import pytest
 from scipy import stats
 from scipy.optimize import minimize
 
-from planarimpact import lumped
 from stronge1994 import csv_tables
 from stronge1994.goodness import chi_squared
 from stronge1994.judging import compare, landmarks, write
@@ -16,8 +15,9 @@ from stronge1994.judging.distances import (
     vertex_residuals,
 )
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import limits_of_regimes, points
+from stronge1994.judging.points import points
 from stronge1994.judging.verdicts import judge
+from stronge1994.verdict_tables import verdict_table
 from stronge1994.verdict_tables.verdict_table import COLUMNS, FAILS, Verdict
 
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
@@ -51,8 +51,7 @@ def test_landmarks_of_a_curve_are_where_it_gets_there_to_rounding():
 
 
 def test_facts():
-    for found, distance in ((21.0, -0.5), (20.0, 0.0), (15.0, 2.5)):
-        assert fact_residuals(found, {"value": 20.0, "tolerance": 2.0}).sigmas[0] == distance
+    assert fact_residuals(21.0, {"value": 20.0, "tolerance": 2.0}).sigmas[0] == -0.5
     for kind, holds in (
         ("less_than", [True, False, False]),
         ("greater_than", [False, False, True]),
@@ -94,7 +93,7 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
     """Of points that all lie as far beside the curve: two sigmas farther must be too far."""
     known = {"kind": "digitised", "sigma_values": of_sigma}
     shifts = parameter * np.ones((1, number))  # an uncertain parameter moves all points
-    # There p is 0.01. The sigma of very many values is known.
+    # Where p is 0.01. A sigma that very many values gave is as good as known.
     far = np.sqrt(stats.f.isf(0.01, number, of_sigma or 1e9) * (1 + parameter * number))
 
     def verdict_at(sigmas, reference=known, **entry):
@@ -103,11 +102,11 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
         return judge({"reference": "a/b"} | entry, reference, measured, 0.01)
 
     for sigmas in (-1.0, -0.5, 0.0, 0.5, 1.0, 0.999 * far, -0.999 * far, 1.001 * far, -1.001 * far):
-        agrees, noticed = abs(sigmas) < far, far < 2.0 - abs(sigmas)
-        good = Verdict.AGREES if noticed else Verdict.INCONCLUSIVE
-        assert verdict_at(sigmas) == (good if agrees else Verdict.DIVERGES)
-        as_before = Verdict.UNCHANGED if agrees else Verdict.DIVERGES
-        assert verdict_at(sigmas, fitted=True) == as_before
+        expected = [Verdict.DIVERGES] * 2
+        if abs(sigmas) < far:
+            noticed = far < 2.0 - abs(sigmas)
+            expected = [Verdict.AGREES if noticed else Verdict.INCONCLUSIVE, Verdict.UNCHANGED]
+        assert [verdict_at(sigmas), verdict_at(sigmas, fitted=True)] == expected
     for size, verdict in ((1.0, Verdict.RIGHT), (1.001, Verdict.WRONG)):
         assert {verdict_at(size, {"kind": "computed"}), verdict_at(-size, {})} == {verdict}
 
@@ -138,11 +137,7 @@ def test_chi_squared_is_that_of_a_fit_held_to_the_stated_parameters():
 
     fitted = minimize(loss, np.zeros(2), tol=1e-12).fun
     assert chi_squared(distance, shifts).value == pytest.approx(fitted, rel=1e-9)
-
-
-def test_not_a_number_is_not_probable():
     assert not chi_squared([np.nan, 0.0]).p > 0.01
-    assert not chi_squared([np.inf, 0.0]).p > 0.01
 
 
 @pytest.mark.parametrize(
@@ -151,8 +146,7 @@ def test_not_a_number_is_not_probable():
         ({"regime": "initial stick"}, [0, 1]),
         ({"regime": "slip and stick"}, [2, 3]),
         ({"regime": "slip throughout"}, [4, 5]),
-        ({"points": {"reader": "me"}}, [0, 2, 4]),
-        ({"points": {"reader": "me", "run": "1"}, "regime": "slip and stick"}, [2]),
+        ({"points": {"reader": "me", "run": "1"}}, [0, 2]),
         ({"curve": "e = 1"}, [1, 3]),
         ({"curve": "e = 1", "as_printed": True}, [1, 3, 5]),
     ],
@@ -170,14 +164,6 @@ def test_a_comparison_is_of_the_points_that_it_names(entry, chosen, axis, tmp_pa
     groups = {"mass_ratio": 3.0, "stiffness_ratio": 0.5, "restitution": 0.5, "friction": 0.2}
     csv_tables.write_rows(path, [axis, "row", *reference["labels"]], rows)
     assert points(entry, reference | {"parameters": groups})["row"].tolist() == chosen
-
-
-@pytest.mark.parametrize("e", [1.0, 0.7, 0.3])
-@pytest.mark.parametrize("zeta2", [1.21, 3.4, 5.0])  # 5.0 is above the mass ratio
-def test_limits_of_regimes_are_those_of_the_solver(zeta2, e):
-    """They are worked out apart, so that no judge asks what it judges."""
-    limits = limits_of_regimes(3.5, zeta2, e)
-    assert limits == pytest.approx([zeta2, lumped.slip_throughout_limit(3.5, zeta2, e)], rel=1e-14)
 
 
 def test_a_contraction_is_of_the_curves_that_it_names():
@@ -265,6 +251,10 @@ def test_a_row_has_what_was_measured(tmp_path):
     assert [",".join(own) for own in cells] == CELLS.split("\n")[1:-1]
     assert {row["comparison"]: row["note"] for row in rows if row["note"]} == NOTES
     assert rows[3]["regression"] == "-0.6 <= difference <= -0.4"
+    printed = rows[5] | {"question": "as printed", "p": ""}
+    assert verdict_table.measured(printed) == "rms 1.41, max 2 N"
+    changed = "chi^2 10.8 of 3, p = 0.12; allowed is a difference, and as before 2 <= rms <= 3"
+    assert verdict_table.why(rows[6]) == f"{NOTES['same']}: {changed}"
     write(rows, tmp_path / "verdicts.csv", tmp_path / "residuals.csv")
     residuals = csv_tables.read(tmp_path / "residuals.csv")
     assert residuals["fact"]["quantity"].tolist() == ["y [N]"]

@@ -2,9 +2,8 @@
 
 from stronge1994.verdict_tables import figure_table, verdict_table
 from stronge1994.verdict_tables.figure_table import OTHER_MODELS
-from stronge1994.verdict_tables.verdict_table import QUESTIONS
 
-SOLVED, PRINTED, OTHERS = QUESTIONS
+SOLVED, PRINTED, OTHERS = verdict_table.QUESTIONS
 SIZES = {
     "points": "4", "rms [sigma]": "2", "max [sigma]": "3", "rms [axis units]": "0.02",
     "max [axis units]": "0.03", "unit": "mu v2(0)", "reference": "maw1976/rebound",
@@ -32,6 +31,7 @@ ROWS = [
     ("fig6", OTHERS, "untested difference", FAR),
     ("fig6", OTHERS, "inconclusive", FAR | {"reference": "maw1976/spin", "unit": "1"}),
     ("fig6", OTHERS, "agrees", SIGN),
+    ("fig6", OTHERS, "agrees", SIGN | {"reference": "maw1976/sign"}),
     ("fig6", OTHERS, "awaited", CRASHED | {"reference": "johnson1983/sphere"}),
     *(("fig6", OTHERS, "agrees", {"curve": f"{model}, e = 0.5"}) for model in OTHER_MODELS),
     ("rod", SOLVED, "right", {}),
@@ -45,17 +45,20 @@ ROWS = [
     ("scene_a", SOLVED, "right", EXACT),
     ("scene_b", SOLVED, "right", EXACT),
 ]
-# Of the largest difference where it is solved, in units and sigmas, but a law has no such unit or
-# sigma. Root mean squares of all points of an entry. Beside others of the first series of a source
-# in its unit, and of all of them in sigmas; of other models than the paper's only what fails.
+# Solved right: the largest difference; a law has no sigma. As printed: of all points of an entry.
+# Beside others: of the first series, and of all in sigmas; other models only where they fail.
 TEXT = """\
-fig6   3e-02 0.4   2 agree                 maw1976 28 0.036 1.2 untested
+fig6   3e-02 0.4   2 agree                 maw1976 29 0.036 1.2 untested
        1 known     eq-15: rms 0.036        cross2014 1 agrees
                    limit: 4.6, not 5.8     awaited: johnson1983
-rod           1 WRONG     DIVERGES 19: rms maw1976 8 0.02 2 DIVERGES
+rod           1 WRONG     DIVERGES 20: rms maw1976 8 0.02 2 DIVERGES
                           0.02
-fig7   1 WRONG     DIVERGES 23             maw1976 DIVERGES
+fig7   1 WRONG     DIVERGES 24             maw1976 DIVERGES
 scenes        0     0     -                -"""
+COUNTS = """\
+solved right: 2 wrong, 1 unexplained, 6 right
+as printed: 2 diverges, 3 explained, 2 agrees
+beside others: 2 diverges, 1 untested, 1 explained, 1 awaited, 1 inconclusive, 6 agrees"""
 
 
 def test_the_table_says_what_every_comparison_has_found():
@@ -67,7 +70,7 @@ def test_the_table_says_what_every_comparison_has_found():
     ]
     table = figure_table.of_run(rows)
     assert figure_table.text(table) == f"{figure_table.HEADER}\n{TEXT}"
-    # The worst comparison of a part comes first.
     places = [[int(name.split("-")[1]) for name in part.rows] for part in table[0].others]
-    assert places == [[10, 11, 9], [12]] and table[1].others[0].rows == ["rod-21", "rod-20"]
-    assert table[0].others[0].unit == "mu v2(0)"
+    assert places == [[10, 11, 9, 13], [12]]  # the worst first
+    assert [item.rows for item in table[1].others] == [["rod-22", "rod-21"]]
+    assert table[0].others[0].unit == "mu v2(0)" and verdict_table.counts(rows) == COUNTS

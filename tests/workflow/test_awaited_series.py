@@ -14,8 +14,7 @@ from stronge1994.judging import compare
 from tests.workflow.project import ROOT, config, schema, sources
 
 CONFIG = config()
-JOHNSON, LEWIS = "johnson1983", "lewis_rogers1988"
-RUBBER = f"{JOHNSON}/rubber_sphere"
+RUBBER, LEWIS = "johnson1983/rubber_sphere", "lewis_rogers1988"
 # The awaited series, and what is compared with each.
 AWAITED = {
     CONFIG["comparisons"][name]["reference"]: name
@@ -63,9 +62,8 @@ def judged(inventory, curves, tmp_path):
         (folder / "source.yaml").write_text(filled(name, len(x)))
         found = inventory | {source: reference_data.load(folder, schema("source"))}
         references = plan.references(CONFIG, found, figure)
-        path, significance = curves / f"{figure}.csv", CONFIG["significance"]
-        rows = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]]}
-        return compare(figure, rows, references, path, significance)[1]
+        path, rows = curves / f"{figure}.csv", {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]]}
+        return compare(figure, rows, references, path, CONFIG["significance"])[1]
 
     return row
 

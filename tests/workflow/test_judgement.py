@@ -88,6 +88,13 @@ def test_the_report_must_show_every_row_and_have_no_problems(tmp_path, monkeypat
     Path(gate.REPORT).write_text("<html></html>")
     found = gate.faults([], {"a-b": False}, {})
     assert found == ["figures/report.html: it does not show a-b", "report: fig5: oh"]
+    # The gate of one figure asks the records of its jobs, too.
+    made = Path(record.path("draw"))
+    made.parent.mkdir()
+    failed = '{"seconds": 1, "read": {}, "wrote": {}, "error": "oh"}'
+    for text, fault in ((failed, "failed: oh"), ("", "no record")):
+        made.write_text(text)
+        assert fault in gate.faults_of_one([str(made)], gate.TABLES[0], {"a-b": False})[0]
 
 
 COMPARISONS = {"fig6-rebound": False, "fig6-printed": False, "fig8-measured": True}

@@ -102,6 +102,8 @@ def test_a_check_that_crashes_no_longer_holds(solver, name, problem, monkeypatch
     monkeypatch.setattr(*solver, crash)
     row = checking.check({name: ENTRIES[name]})[0]
     assert (row["holds"], row["problem"]) == ("no", problem)
+    said = f"  no longer holds: {name} ({ENTRIES[name]['where']}): {problem}"
+    assert outcome.summary([row]).splitlines()[-1] == said
 
 
 def test_the_second_verdict_never_changes_the_first(rows, measured):
@@ -123,10 +125,12 @@ def test_the_second_verdict_never_changes_the_first(rows, measured):
         assert row["problem"] == "; ".join(filter(None, why))
         assert row["holds"] == ("no" if any(why) else "yes")
     numbers = dict(zip(finding.MODELS, (0.5, 1.5, 2.5, 3.5), strict=True))
-    claim = CLAIMS[name] | {"says": "{peak_spread.plastic:.2f}, {peak_spread.paper:.1f}"}
+    says = "{peak_spread.plastic:.2f}, {peak_spread.paper:.1f}"
+    claim = CLAIMS[name] | {"says": says, "confirms": {"at_least": 0.25}}
     row = checking.check({name: {"in_nature": claim}}, {"peak_spread": numbers})[0]
-    assert (row["nature"], row["nature_true_if"]) == ("3.50, 0.5", "at most 0.01")
+    assert (row["nature"], row["nature_true_if"]) == ("3.50, 0.5", "at least 0.25")
     assert row["nature_found"] == "paper 0.5, unloading stiffness 1.5, viscous 2.5, plastic 3.5"
+    assert checking.judge({"says": says}, {"peak_spread": numbers | {"viscous": math.nan}})
 
 
 @pytest.fixture(scope="module")
