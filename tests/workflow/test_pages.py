@@ -30,8 +30,10 @@ COLOURS = "color-contrast"  # a rule of axe
 # and each "Parameters" is a heading of level 6 with the same id.
 NOT_OURS = ["link-name", "heading-order", "duplicate-id"]
 
-# What is folded counts as well.
-OPEN = "for (const part of document.querySelectorAll('details')) part.open = true;"
+# What is folded counts as well. No colour is looked at on its way from light to dark.
+OPEN = """for (const part of document.querySelectorAll('details')) part.open = true;
+document.head.append(Object.assign(document.createElement('style'),
+  {textContent: '* { transition: none !important; }'}));"""
 FIND = """axe.run(%s, {resultTypes: ['violations'], iframes: false, ...%s})
 .then((found) => found.violations.map(
   ({id, nodes}) => `${id}: ${nodes.length}, first ${nodes[0].target}`
