@@ -33,11 +33,12 @@ CURVES = "def curves(friction, points, nodes, samples=3): ...\n"
 @contextlib.contextmanager
 def folder_with(folder, old="", new="", without="", name="fig10"):
     """Figures are those of a folder, with one, after a change of what it states."""
+    assert old in GOOD
     (folder / name).mkdir()
-    for file, text in (("figure.yaml", GOOD), ("curves.py", CURVES), ("drawing.py", "")):
+    stated = GOOD.replace(old, new, 1)
+    for file, text in (("figure.yaml", stated), ("curves.py", CURVES), ("drawing.py", "")):
         if file != without:
-            assert file != "figure.yaml" or old in text
-            (folder / name / file).write_text(text.replace(old, new, 1) if old else text)
+            (folder / name / file).write_text(text)
     figures.stated.cache_clear()
     try:
         with mock.patch.object(figures, "FOLDER", folder):

@@ -274,9 +274,8 @@ def test_each_impact_gets_the_first_rung_that_fits():
 
 def test_explain_says_what_the_loss_and_unlike_bodies_may_cost(monkeypatch):
     """No model has the coupling of unlike bodies: it is told once for all tables."""
-    monkeypatch.setattr(
-        model_form, "TOLERANCE", 1e-16
-    )  # off the table the other loss has no answer
+    # Off the table the other loss has no answer.
+    monkeypatch.setattr(model_form, "TOLERANCE", 1e-16)
     losses = [0.6] * 5 + [0.2]
     rows = by_incidence([0.0, 0.5, 2.0, 3.0, 10.0, 1.0], restitution=losses, friction=0.3)
     alike = rows.assign(**{"other_young_modulus [Pa]": 207e9, "other_poisson_ratio": 0.3})
