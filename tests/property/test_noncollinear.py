@@ -200,6 +200,9 @@ def test_history_keeps_coulombs_law_and_ends_at_the_rebound(impacts):
         assert abs(contact.normal[-1] - result.normal) <= 1e-11 * reach
         assert abs(contact.time[-1] - result.duration) <= 1e-12 * result.duration
         assert abs(scale - result.peak_normal) <= 1e-12 * scale
+        states = np.stack([*contact[:4], contact.spring], axis=1)
+        for event in contact.events:
+            assert np.abs(states - event[1:]).max(axis=1).min() <= 1e-12 * np.abs(states).max()
 
 
 def test_without_coupling_it_is_the_collinear_model_at_its_thresholds_too(impacts):

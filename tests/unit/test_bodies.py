@@ -201,11 +201,14 @@ def test_whole_numbers_are_numbers_if_a_float_can_hold_them(value):
 
 def test_what_is_out_of_range_is_named_with_its_place_and_pickled():
     with pytest.raises(bodies.OutOfRange) as refusal:
-        bodies.viscous_restitution(1.0, [[1e-7, 0.1], [0.2, 1e-7]], **STEEL)
+        bodies.viscous_restitution([1.0, 9.0], [[1e-7, 0.1], [0.2, 1e-7]], **STEEL)
     again = pickle.loads(pickle.dumps(refusal.value))
     assert type(again) is bodies.OutOfRange and str(again) == str(refusal.value)
     words = {i: message.partition(":")[0] for i, message in again.messages.items()}
     assert words == {1: "relaxation_time = 0.1", 2: "relaxation_time = 0.2"}
+    limits = [float(message.split()[8]) for message in again.messages.values()]
+    found = bodies.viscous_restitution([9.0, 1.0], np.multiply(limits, 0.999), **STEEL)
+    np.testing.assert_allclose(found, bodies.LEAST_RESTITUTION, rtol=1e-2)
 
 
 def test_dundurs_constant_is_that_of_the_text_books():

@@ -33,6 +33,9 @@ def test_balls_are_those_of_their_sources():
     assert superball.pair.stiffness_ratio == cross["parameters"]["stiffness_ratio"]["value"]
     assert superball.body.mass == pytest.approx(0.0462, rel=1e-3)
     assert (135 / 254) ** 0.5 < tennis.pair.restitution < (147 / 254) ** 0.5
+    balls, n = PRESETS["billiard_balls"], r"([\d.]+)"
+    for field, *ends in re.findall(rf"(\w+) {n} to {n}", balls.source):
+        assert getattr(balls.pair, field) == np.mean([*map(float, ends)])
     for name in ("billiard_balls", "billiard_ball_on_cushion"):
         body = PRESETS[name].body
         assert body.radius == 2.25 * 0.0254 / 2
