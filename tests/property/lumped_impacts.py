@@ -127,7 +127,7 @@ def equal_ratios(loss):
 def ordinary(rng, loss):
     """Impacts whose answers have all digits that are promised."""
     low, which = switches(rng, {"hysteretic": 2000, "viscous": 500}[loss], loss)
-    assert which.size > 60
+    assert which.size > 40
     found = sprayed(rng, low, which, loss), thresholds(rng, 200, loss), equal_ratios(loss)
     return np.concatenate(found, axis=1)
 

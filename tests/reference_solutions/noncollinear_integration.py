@@ -12,6 +12,7 @@ F2 = -kappa u2 up to the largest compression so far, below it on a line of stiff
 
 import math
 
+import numpy as np
 from scipy.integrate import solve_ivp
 
 TOLERANCE = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853"}
@@ -19,8 +20,6 @@ TOLERANCE = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853"}
 
 class Contact:
     """One contact, integrated from first touch to separation."""
-
-    dense = False  # whether `phases` can be evaluated between their steps
 
     def __init__(self, v1, v2, body, friction, restitution, stiffness_ratio, stiffness):
         """`body` is (M, k, x1, x2) of Eqs 1 and 2; restitution above 0."""
@@ -81,10 +80,10 @@ class Contact:
         fastest *= 1.0 if self.loading else self.e
         found = solve_ivp(
             self.rate, (0, 50 * period), [*self.state, 0.0], events=events,
-            max_step=fastest / 100, first_step=fastest * 1e-4, dense_output=self.dense, **TOLERANCE,
+            max_step=fastest / 100, first_step=fastest * 1e-4, dense_output=True, **TOLERANCE,
         )  # fmt: skip
-        forces = [self.tangential(u1, u2) for u1, u2 in found.y[:2].T]
-        self.peak_friction = max(self.peak_friction, *map(abs, forces))
+        u1, u2, *_ = found.sol(np.linspace(0, found.t[-1], 2001))
+        self.peak_friction = max(self.peak_friction, np.abs(self.tangential(u1, u2)).max())
         name = next(n for n, times in zip(names, found.t_events, strict=True) if len(times))
         self.phases.append((self.time, found, self.g, self.loading, self.deepest, name))
         self.time += found.t[-1]

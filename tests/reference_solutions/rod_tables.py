@@ -118,7 +118,6 @@ def followed(curve):
     friction = FRICTION if curve == "contact" else 0.0
     rod = Rod(FOLLOWED["tilt"])
     contact = Contact(FOLLOWED["ratio"], -1.0, rod.body, friction, RESTITUTION, ZETA2, 1.0)
-    contact.dense = True
     return contact.run()
 
 
