@@ -3,11 +3,17 @@
 import importlib
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
+from matplotlib.collections import Collection
+from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.text import Text
 
 from stronge1994 import csv_tables
 from stronge1994.curve_names import is_shifted
@@ -91,13 +97,56 @@ def test_a_line_is_a_curve_of_the_table_and_each_curve_is_drawn(given, figure):
     ] == []
 
 
-def test_the_rod_of_the_sketch_leans_back_by_its_tilt(given):
-    """The tilt is positive where the tip is ahead of the centre, and moves to the right."""
-    curves, draw = given("rod")
-    axes = next(axes for axes in draw(curves).axes if "tilt $" in axes.get_xlabel())
-    x, y = max(axes.lines, key=Line2D.get_linewidth).get_xydata()[-1]
-    tilt = float(re.search(r"= ([-\d.]+)", axes.get_xlabel())[1])
-    assert np.degrees(np.arctan2(-x, y)) == pytest.approx(tilt)
+def shown(figure):
+    """What a picture shows: words, and numbers in hundredths of its panel.
+
+    Of a line they are its first and last point and its mean, of all else the corners around it.
+    """
+    figure.draw_without_rendering()
+    for texts in (figure.texts, *(legend.get_texts() for legend in figure.legends)):
+        yield " | ".join(text.get_text() for text in texts), []
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            ticks = " ".join(text.get_text() for text in axis.get_ticklabels())
+            yield f"{axis.get_label_text()}, {axis.get_scale()}: {ticks}", []
+        for part in axes.get_children():
+            nothing = isinstance(part, Text) and not part.get_text()
+            nothing |= part in (axes.patch, *axes.spines.values())
+            if nothing or not isinstance(part, Line2D | Patch | Collection | Text):
+                continue
+            if isinstance(part, Line2D):
+                places = part.get_transform().transform(part.get_xydata())
+                places = places[np.isfinite(places).all(axis=1)]
+                places = [places[0], places[-1], places.mean(axis=0)]
+                looks = part.get_label(), part.get_color(), part.get_linestyle(), part.get_marker()
+            elif isinstance(part, Text):
+                places, looks = part.get_window_extent().get_points(), [part.get_text()]
+            else:
+                places = part.get_window_extent().get_points()
+                colours = [to_hex(colour) for colour in np.atleast_2d(part.get_facecolor())]
+                looks = part.get_label(), *colours[:1], part.get_hatch()
+            places = axes.transAxes.inverted().transform(places).ravel()
+            if part.get_visible() and np.isfinite(places).all():
+                yield " ".join(map(str, looks)), [round(100 * place) for place in places.tolist()]
+
+
+# What the pictures showed when somebody last looked at them; that of times has other ones each run.
+LOOKED_AT = Path(__file__).with_name("pictures.yaml")
+
+
+@pytest.mark.parametrize("figure", [figure for figure in figures.stated() if figure != "trade"])
+def test_a_picture_is_the_one_that_was_looked_at(given, figure):
+    """After a change that is meant, delete its entry, run this, and look at the picture."""
+    curves, draw = given(figure)
+    stored = yaml.safe_load(LOOKED_AT.read_text(encoding="utf-8")) or {}
+    found = [[words, *numbers] for words, numbers in shown(draw(curves))]
+    if figure not in stored:
+        entry = yaml.safe_dump({figure: found}, default_flow_style=None, width=1000)
+        LOOKED_AT.write_text(LOOKED_AT.read_text(encoding="utf-8") + entry, encoding="utf-8")
+    wanted = stored[figure]
+    assert [words for words, *_ in found] == [words for words, *_ in wanted]
+    for (words, *numbers), (_, *places) in zip(found, wanted, strict=True):
+        assert numbers == pytest.approx(places, abs=3), words
 
 
 def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, first_run):
