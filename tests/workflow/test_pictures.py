@@ -100,7 +100,8 @@ def test_a_line_is_a_curve_of_the_table_and_each_curve_is_drawn(given, figure):
 def shown(figure):
     """What a picture shows: words, and numbers in hundredths of its panel.
 
-    Of a line they are its first and last point and its mean, of all else the corners around it.
+    Of a line they are its first and last point and its mean, of an arrow both ends, of all else the
+    corners around it.
     """
     figure.draw_without_rendering()
     for texts in (figure.texts, *(legend.get_texts() for legend in figure.legends)):
@@ -110,7 +111,8 @@ def shown(figure):
             ticks = " ".join(text.get_text() for text in axis.get_ticklabels())
             yield f"{axis.get_label_text()}, {axis.get_scale()}: {ticks}", []
         for part in axes.get_children():
-            nothing = isinstance(part, Text) and not part.get_text()
+            arrow = getattr(part, "arrow_patch", None)
+            nothing = isinstance(part, Text) and not (part.get_text() or arrow)
             nothing |= part in (axes.patch, *axes.spines.values())
             if nothing or not isinstance(part, Line2D | Patch | Collection | Text):
                 continue
@@ -121,6 +123,8 @@ def shown(figure):
                 looks = part.get_label(), part.get_color(), part.get_linestyle(), part.get_marker()
             elif isinstance(part, Text):
                 places, looks = part.get_window_extent().get_points(), [part.get_text()]
+                if arrow:
+                    places = axes.transData.transform([part.xy, part.xyann])
             else:
                 places = part.get_window_extent().get_points()
                 colours = [to_hex(colour) for colour in np.atleast_2d(part.get_facecolor())]
@@ -146,7 +150,9 @@ def test_a_picture_is_the_one_that_was_looked_at(given, figure):
     wanted = stored[figure]
     assert [words for words, *_ in found] == [words for words, *_ in wanted]
     for (words, *numbers), (_, *places) in zip(found, wanted, strict=True):
-        assert numbers == pytest.approx(places, abs=3), words
+        # Rounding errors, which the figure on stability shows, differ from machine to machine.
+        slack = 10 if figure == "stability" else 1
+        assert numbers == pytest.approx(places, abs=slack), words
 
 
 def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, first_run):
