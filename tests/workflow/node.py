@@ -12,14 +12,15 @@ from stronge1994.explorer import page
 FOLDER = Path(__file__).parents[2] / "workflow/explorer"
 # Those that do not look at their page as they are loaded.
 SCRIPTS = ["solver", "continuum", "check", "models", "flight", "charts", "arrows", "patch"]
-SCRIPTS += ["diagram", "words", "files"]
+SCRIPTS += ["diagram", "words", "files", "stage"]
 # What is drawn is kept in elements that nobody sees, by their ids.
 BASE = f"""
 const CONTINUUM_ERROR = {page.CONTINUUM_ERROR};
 const drawn = {{}};
 const document = {{ getElementById: (id) => drawn[id] ??= {{
-  style: {{}}, classList: {{ toggle() {{}} }}, querySelectorAll: () => [],
-  setAttribute(name, value) {{ this[name] = value; }},
+  style: {{}}, clientWidth: 640, clientHeight: 360, getComputedTextLength: () => 60,
+  classList: {{ toggle: (name, on) => (document.getElementById(id)[`class ${{name}}`] = !!on) }},
+  querySelectorAll: () => [], setAttribute(name, value) {{ this[name] = value; }},
   querySelector: (part) => document.getElementById(`${{id}} ${{part}}`),
 }} }};
 // One impact as a page knows it.

@@ -1,9 +1,13 @@
-"""The balls of the explorer fly and bounce as mechanics and the package say."""
+"""The balls of the explorer fly and bounce as mechanics and the package say; the stage shows them."""
 
+import json
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 from planarimpact import lumped
 from stronge1994.explorer import page as write_explorer
@@ -91,3 +95,40 @@ def test_a_ball_that_does_not_bounce_stays_on_the_floor(scripts):
     (parts,) = scripts.map(PATHS, [THROWS[0] | {"restitution": 0, "spin": 0}])
     assert [part["kind"] for part in parts] == ["flight", "bounce", "flight"]
     assert abs(parts[2]["ball"]["up"]) == parts[2]["ball"]["height"] == 0
+
+
+# What is drawn of a throw at a time of its show, and what the microscope shows of its first bounce.
+SHOWN = """([given, style, share]) => {
+  for (const id in drawn) delete drawn[id];
+  const groups = (x) => ({ x, beta: given.mass_ratio, zeta2: 1.2, e: given.restitution });
+  const flights = Object.fromEntries([["lumped", "lumped"], ["continuum", style]].map(
+    ([lane, one]) => [lane, flight.fly(given, (x) => models.contact(one, groups(x)))]));
+  stage.prepare({ ...given, groups: groups(0) }, flights);
+  stage.show(share * stage.duration());
+  const { time, touching } = stage.first_bounce(share * stage.duration());
+  const [, { contact, x }] = flights[share > 0.4 ? "continuum" : "lumped"];
+  const row = models.at(contact, Math.min(time, contact.end));
+  diagram.show({ contact, ...groups(x), mu: given.friction }, row, time, touching);
+  return JSON.parse(JSON.stringify(drawn));
+}"""
+LOOKED_AT = Path(__file__).with_name("explorer.yaml")
+
+
+def test_the_stage_is_the_one_that_was_looked_at(scripts):
+    """After a change that is meant, empty the file, run this, and look at the explorer."""
+    shares, found = [0, 0.05, 0.1, 0.3, 0.5, 0.9], []
+    throws = list(zip(THROWS[:6], ["viscous", "plastic"] * 3, shares, strict=True))
+    for share, drawn in zip(shares, scripts.map(SHOWN, throws), strict=True):
+        for name, part in sorted(drawn.items()):
+            words = [text for key, text in part.items() if key == "textContent"]
+            words += [key for key, on in part.items() if on is True] + list(part["style"].values())
+            numbers = np.array(re.findall(r"-?\d+\.?\d*", json.dumps(part)), float)
+            # Two sums, which tell a change of any number or of their order.
+            sums = [numbers.sum(), numbers @ np.cos(np.arange(numbers.size))]
+            found.append([f"{share}: {name}", " ".join(words), *np.round(sums, 1).tolist()])
+    if not (stored := yaml.safe_load(LOOKED_AT.read_text(encoding="utf-8"))):
+        text = yaml.safe_dump(found, default_flow_style=None, width=1000)
+        LOOKED_AT.write_text(text, encoding="utf-8")
+    assert [words for *words, _, _ in found] == [words for *words, _, _ in stored]
+    for (name, _, *sums), (*_, one, other) in zip(found, stored, strict=True):
+        assert sums == pytest.approx([one, other], rel=1e-4, abs=0.2), name
