@@ -182,18 +182,3 @@ def test_second_solutions_share_nothing_with_the_solver():
     files = list(SRC.parent.joinpath(*APART.split(".")).rglob("*.py"))
     found = [f"{path}: {target}" for path in files for target in ties(path.read_text("utf-8"))]
     assert len(files) > 10 and not found
-
-
-@pytest.mark.parametrize(
-    "source",
-    [
-        "from planarimpact import continuum",
-        "def late():\n    import stronge1994.reference_data",
-        "from tests.package_tables import annuli_tables",
-        "from ..package_tables import annuli_tables",
-    ],
-)
-def test_a_tie_to_the_solver_is_seen(source):
-    harmless = f"import numpy as np\nfrom {APART} import table_files\n"
-    assert not list(ties(harmless))
-    assert list(ties(harmless + source))

@@ -1,4 +1,4 @@
-"""The balls of the explorer fly and bounce as mechanics and the package say; the stage shows them."""
+"""The balls of the explorer fly and bounce as mechanics says, and the stage shows them."""
 
 import json
 import math

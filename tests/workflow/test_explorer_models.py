@@ -115,8 +115,8 @@ def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
 
 
 # Zones of the patch from outside, and friction by stress: 2 pi times the integral of r times
-# stress, which Abel's transform keeps. Then the way of each arrow, and how far each spring leans.
-PATCH = f"""(impact, times, sign) => times.map((time) => {{
+# stress, which Abel's transform keeps.
+PATCH = f"""(impact, times) => times.map((time) => {{
   const {{ contact, e }} = impact;
   const row = models.at(contact, time), motion = continuum.normal(e, contact.style);
   const edge = Math.sqrt(row.limit.square), n = 1000;
@@ -124,33 +124,21 @@ PATCH = f"""(impact, times, sign) => times.map((time) => {{
   const {{ stress }} = {node.expression("patch", "return { show,", "return { stress, show,")};
   const values = stress(row.density, motion.radius / motion.springs, edge, radii, 1);
   const sum = radii.reduce((sum, r, i) => sum + r * values[i], 0) * edge / n;
-  const zones = patch.show(contact.style, row, sign, motion);
-  diagram.show(impact, row, time, true);
-  const lines = [drawn[`patch-${{contact.style}} .stress`].d, drawn["diagram-row-springs"].d];
-  const ends = lines.map((line) => line.split("M").map((one) => one.match(/-?[0-9.]+/g) ?? []));
-  return [2 * sum / motion.largest, row.friction, zones.map((one) => [one.slip, one.outer]),
-    ends[0].filter((one) => one.length === 3).map(([tail, , neck]) => neck - tail),
-    ends[1].slice(1).map((line) => line.at(-2) - line[0])];
+  const zones = patch.show(contact.style, row, 1, motion);
+  return [2 * sum / motion.largest, row.friction, zones.map((one) => [one.slip, one.outer])];
 }})"""
 
 
 @pytest.mark.parametrize(("e", "style"), [(1, "elastic"), (0.6, "viscous"), (0.6, "plastic")])
 def test_the_patch_shows_friction_and_where_it_slips(e, style, scripts):
     x, times = math.tan(math.radians(30)) / 0.4, [0.3, 0.7, 1, 1.2, 1.5]
-    shown, mirrored = (
-        scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times}, {sign})") for sign in (1, -1)
-    )
+    shown = scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times})")
     ours, friction = np.transpose([row[:2] for row in shown])
-    # Positive friction is against the motion before; the feet of springs are left behind.
-    for one, other in zip(shown, mirrored, strict=True):
-        for moved in map(sum, one[3:]):
-            assert abs(moved) > 1 and moved * one[1] < 0
-        assert sum(other[3]) == pytest.approx(-sum(one[3])) and other[4] == one[4]
     assert np.abs(friction).max() > 0.3
     assert np.abs(ours - friction).max() < 0.03 * np.abs(friction).max()
     if style == "elastic":
         theirs = continuum.history(x, *SOLID)
-        for time, (_, _, zones, *_) in zip(times, shown, strict=True):
+        for time, (_, _, zones) in zip(times, shown, strict=True):
             radius = np.interp(time, theirs.time, theirs.contact_radius)
             stick = np.interp(time, theirs.time, theirs.stick_radius)
             slip, inner = zones[-1]
@@ -158,7 +146,7 @@ def test_the_patch_shows_friction_and_where_it_slips(e, style, scripts):
             assert abs((0 if slip else inner) - stick) < 0.05
 
 
-# ---- charts, the microscope and energies
+# ---- charts and energies
 
 CHART = """(draw, impact, ...more) => {
   const svg = { setAttribute() {} };
@@ -295,28 +283,6 @@ def test_energies_at_any_time_are_those_of_the_springs_and_of_friction(rubber):
     assert np.abs(shares.sum(axis=1) - 1).max() < 1e-9
 
 
-MICROSCOPE = """(times) => times.map((time) => {
-  diagram.show(impact, models.at(impact.contact, time), time, true);
-  const part = (name) => drawn[`diagram-${name}`];
-  const places = ["body", "particle", "origin"].map((name) => part(name).transform);
-  const drawings = ["friction-force", "normal-force", "velocity", "limit"];
-  return [...places, ...drawings.map((name) => part(name).d)];
-})"""
-
-
-def assert_drawn(lengths, wanted, missing=0):
-    """Lengths are right but for one scale, which is not negative, and a rounding of 0.1."""
-    scale = np.sum(lengths * wanted) / np.sum(wanted * wanted)
-    assert scale > 10
-    assert np.abs(lengths - scale * wanted).max() < 0.2 + missing
-
-
-def arrow(outline):
-    """The vector of an arrow; one that is too short is left out, and zero."""
-    corners = np.array([one.split(",") for one in re.findall(r"[-\d.]+,[-\d.]+", outline)], float)
-    return corners[3] - (corners[0] + corners[-1]) / 2 if len(corners) else np.zeros(2)
-
-
 def test_the_closer_look_shows_the_contact_in_time(rubber):
     e, found, evaluate = rubber
     wanted = {"normal": found.normal, "limit": -found.normal, "friction": found.friction}
@@ -335,23 +301,6 @@ def test_the_closer_look_shows_the_contact_in_time(rubber):
         f"{way}. The contact point leaves {'forwards' if share > 0 else 'backwards'}, with "
         f"{abs(share):.{int(abs(share) < 9.5)}f} % of the tangential velocity that it came with."
     )
-    # The microscope: in the picture, x runs to the right, y down.
-    chosen = slice(100, -100, 250)
-    t, normal, friction = found.time[chosen], found.normal[chosen], found.friction[chosen]
-    rows = evaluate(f"({MICROSCOPE})({t.tolist()})")
-    moved = [[re.findall(r"-?[\d.]+", one) for one in row[:3]] for row in rows]
-    body, particle, origin = np.array(moved, float).transpose(1, 0, 2)
-    rubs, presses, velocity = np.transpose([list(map(arrow, row[3:6])) for row in rows], (1, 0, 2))
-    ends = np.array([re.findall(r"[-\d.]+", row[6]) for row in rows], float)
-    assert_drawn(body[:, 0] - particle[:, 0], found.spring[chosen])
-    assert_drawn(body[:, 0] - origin[:, 0], t)
-    back = t > 1
-    assert_drawn(body[:, 1] - 170, np.where(back, 1 - e**2 * (1 - normal), normal))
-    # All forces and the limit of friction have one scale.
-    drawn = [-rubs[:, 0], -presses[:, 1], (ends[:, 2] - ends[:, 0]) / 2]
-    assert_drawn(np.array(drawn), np.array([friction, normal, normal]), missing=3)
-    approach = np.cos(math.pi / 2 * np.where(back, 1 + (t - 1) / e, t)) * np.where(back, e, 1)
-    assert_drawn(velocity, np.stack([FRICTION * found.velocity[chosen], approach], axis=1))
 
 
 # ---- what is said
