@@ -14,6 +14,7 @@ from scipy.special import chdtrc
 from stronge1994 import csv_tables, curve_names, reference_data
 from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
+from stronge1994.formulas import mathematical, number
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import key_numbers, note, which_model
 from stronge1994.pages import report as write_report
@@ -71,8 +72,12 @@ def test_the_first_words_say_how_it_went_and_what_was_found(pages, tables):
     assert grave and all(f'<a href="ledger.html#{entry}">' in head for entry in grave)
 
 
+SAID = {"origin of sigma": "sigma_origin", "where": "where", "tolerance": "tolerance_origin"}
+
+
 def test_every_verdict_figure_and_source_is_there(pages, tables, inventory):
-    page, provenance = Page(pages("report")), Page(pages("sources"))
+    page, text = Page(pages("report")), pages("sources")
+    provenance = Page(text)
     stated_in = provenance.text
     counts = Counter(row["verdict"] for row in tables("verdicts"))
     assert all(f"{verdict} {count} " in page.text for verdict, count in counts.items())
@@ -83,6 +88,15 @@ def test_every_verdict_figure_and_source_is_there(pages, tables, inventory):
             for name, entry in stated.get(kind, {}).items():
                 assert f"{source}/{name}" in provenance.ids
                 assert (entry.get("digitised_by") or "") in stated_in
+                row = text[text.index(f'id="{source}/{name}"') :].split("</tr>")[0]
+                cells = re.findall(r'data-label="(.*?)">(.*?)</td>', row, flags=re.S)
+                cells = {label: flat(cell) for label, cell in cells}
+                kinds = {"facts": None, "series": entry["kind"] if entry.get("path") else "awaited"}
+                assert cells.get("kind") == kinds[kind]
+                for label, key in SAID.items():
+                    assert flat(mathematical(entry.get(key, ""))) in cells.get(label, "")
+                tolerance = entry.get("tolerance") and flat(number(entry["tolerance"]))
+                assert cells.get("tolerance", "").startswith(tolerance or "")
     told = "angle: 0.22°; centre restitution: 0.0016", "0.0127 m 3×10 −5 stated", "nobody yet: th"
     assert all(words in stated_in for words in (*told, f"numpy {np.__version__}"))
 
@@ -93,6 +107,8 @@ def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, ta
     shown = re.split("<h[23]", text[text.index(f'<h3 id="{name}">') + 3 :])[0]
     svg = (first_run[0] / f"figures/{name}.svg").read_bytes()
     assert base64.b64encode(svg).decode() in shown
+    slides = re.findall(r'_(light|dark)\.png">(\w+)<', shown)
+    assert all(kind == words for kind, words in slides)
     mine = [row["comparison"] for row in tables("verdicts") if row["figure"] == name]
     assert re.findall(r'<tr id="([^"]*)"', shown) == mine
     told = pages("sources")
