@@ -311,10 +311,18 @@ def assert_drawn(lengths, wanted, missing=0):
     assert np.abs(lengths - scale * wanted).max() < 0.2 + missing
 
 
-def arrow(outline):
-    """The vector of an arrow; one that is too short is left out, and zero."""
+def arrow(outline, start=None):
+    """The vector of an arrow, from its start; one that is too short is left out, and zero."""
     corners = np.array([one.split(",") for one in re.findall(r"[-\d.]+,[-\d.]+", outline)], float)
-    return corners[3] - (corners[0] + corners[-1]) / 2 if len(corners) else np.zeros(2)
+    if not len(corners):
+        return np.zeros(2)
+    tail, tip = (corners[0] + corners[-1]) / 2, corners[3]
+    assert start is None or tail == pytest.approx(start, abs=0.2)
+    # Its head is broad behind the tip, as far on both sides.
+    behind, across = tip - (corners[2] + corners[4]) / 2, corners[2] - corners[4]
+    assert np.linalg.norm(across) > 2 * np.linalg.norm(corners[1] - corners[5])
+    assert 1 < behind @ behind <= behind @ (tip - tail) + 2 and abs(behind @ across) < 2
+    return tip - tail
 
 
 def test_the_closer_look_shows_the_contact_in_time(rubber):
@@ -343,10 +351,11 @@ def test_the_closer_look_shows_the_contact_in_time(rubber):
     body, particle, origin = np.array(moved, float).transpose(1, 0, 2)
     rubs, presses, velocity = np.transpose([list(map(arrow, row[3:6])) for row in rows], (1, 0, 2))
     ends = np.array([re.findall(r"[-\d.]+", row[6]) for row in rows], float)
-    assert_drawn(body[:, 0] - particle[:, 0], found.spring[chosen])
-    assert_drawn(body[:, 0] - origin[:, 0], t)
+    # All distances have one scale.
     back = t > 1
-    assert_drawn(body[:, 1] - 170, np.where(back, 1 - e**2 * (1 - normal), normal))
+    moves = [body[:, 0] - particle[:, 0], body[:, 0] - origin[:, 0], body[:, 1] - 170]
+    deep = np.where(back, 1 - e**2 * (1 - normal), normal)
+    assert_drawn(np.array(moves), np.array([found.spring[chosen], t, deep]))
     # All forces and the limit of friction have one scale.
     drawn = [-rubs[:, 0], -presses[:, 1], (ends[:, 2] - ends[:, 0]) / 2]
     assert_drawn(np.array(drawn), np.array([friction, normal, normal]), missing=3)
