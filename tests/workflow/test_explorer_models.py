@@ -115,8 +115,8 @@ def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
 
 
 # Zones of the patch from outside, and friction by stress: 2 pi times the integral of r times
-# stress, which Abel's transform keeps. Then the way of each arrow, and how far each spring leans.
-PATCH = f"""(impact, times, sign) => times.map((time) => {{
+# stress, which Abel's transform keeps. Then how far each spring leans.
+PATCH = f"""(impact, times) => times.map((time) => {{
   const {{ contact, e }} = impact;
   const row = models.at(contact, time), motion = continuum.normal(e, contact.style);
   const edge = Math.sqrt(row.limit.square), n = 1000;
@@ -124,28 +124,23 @@ PATCH = f"""(impact, times, sign) => times.map((time) => {{
   const {{ stress }} = {node.expression("patch", "return { show,", "return { stress, show,")};
   const values = stress(row.density, motion.radius / motion.springs, edge, radii, 1);
   const sum = radii.reduce((sum, r, i) => sum + r * values[i], 0) * edge / n;
-  const zones = patch.show(contact.style, row, sign, motion);
+  const zones = patch.show(contact.style, row, 1, motion);
   diagram.show(impact, row, time, true);
-  const lines = [drawn[`patch-${{contact.style}} .stress`].d, drawn["diagram-row-springs"].d];
-  const ends = lines.map((line) => line.split("M").map((one) => one.match(/-?[0-9.]+/g) ?? []));
+  const springs = drawn["diagram-row-springs"].d.split("M").slice(1);
+  const lean = (line) => (([start, ...more]) => more.at(-2) - start)(line.match(/-?[0-9.]+/g));
   return [2 * sum / motion.largest, row.friction, zones.map((one) => [one.slip, one.outer]),
-    ends[0].filter((one) => one.length === 3).map(([tail, , neck]) => neck - tail),
-    ends[1].slice(1).map((line) => line.at(-2) - line[0])];
+    springs.map(lean)];
 }})"""
 
 
 @pytest.mark.parametrize(("e", "style"), [(1, "elastic"), (0.6, "viscous"), (0.6, "plastic")])
 def test_the_patch_shows_friction_and_where_it_slips(e, style, scripts):
     x, times = math.tan(math.radians(30)) / 0.4, [0.3, 0.7, 1, 1.2, 1.5]
-    shown, mirrored = (
-        scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times}, {sign})") for sign in (1, -1)
-    )
+    shown = scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times})")
     ours, friction = np.transpose([row[:2] for row in shown])
     # Positive friction is against the motion before; the feet of springs are left behind.
-    for one, other in zip(shown, mirrored, strict=True):
-        for moved in map(sum, one[3:]):
-            assert abs(moved) > 1 and moved * one[1] < 0
-        assert sum(other[3]) == pytest.approx(-sum(one[3])) and other[4] == one[4]
+    for *_, force, _, leans in shown:
+        assert abs(sum(leans)) > 1 and sum(leans) * force < 0
     assert np.abs(friction).max() > 0.3
     assert np.abs(ours - friction).max() < 0.03 * np.abs(friction).max()
     if style == "elastic":
@@ -382,11 +377,6 @@ def test_it_says_which_models_answer_and_disagree(scripts):
         assert [one["direction"] for one in ours] == directions
         assert words in agreement["text"] and agreement["agrees"] == (x == 10)
         assert [one["style"] for one in ours if one["mute"]] == ["rigid"] * (directions[1] == 0)
-        for one in ours:
-            theirs = packaged(one["style"], x, *SOLID, e)
-            error = 1e-9 if one["style"] in ("lumped", "rigid") else write_explorer.CONTINUUM_ERROR
-            for name in ("velocity", "peak_friction", "dissipation"):
-                assert abs(one[name] - getattr(theirs, name)) < error, (one["style"], name)
     # The continuum answers from 0.1 on.
     answering = scripts.map("(e) => models.chosen({ e }, ['continuum']).length", [0.099, 0.1, 1])
     assert answering == [0, 2, 1]
