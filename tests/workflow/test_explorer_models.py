@@ -76,18 +76,6 @@ def test_one_impact_is_within_the_error_that_the_page_says(loss, scripts):
     assert abs(scripts.evaluate(f"{impact(loss, 2.0, 0.5)}.limit") - limit) < 0.01
 
 
-@pytest.mark.parametrize("style", ["elastic", *continuum.LOSSES])
-def test_curves_are_within_the_error_that_the_page_says(style, scripts):
-    x = np.linspace(0, 13, 20)
-    for beta, zeta2, e in [(*SOLID, 0.8), (10.0, 1.5, 0.3)]:
-        e = 1 if style == "elastic" else e
-        solve = f"models.curve('{style}', {json.dumps({'beta': beta, 'zeta2': zeta2, 'e': e})})"
-        ours, theirs = scripts.map(solve, x.tolist()), packaged(style, x, beta, zeta2, e)
-        for name in ("velocity", "peak_friction"):
-            error = np.abs([one[name] for one in ours] - getattr(theirs, name)).max()
-            assert error <= write_explorer.CURVE_ERROR, (beta, zeta2, e, name)
-
-
 @pytest.mark.parametrize("x", [1.2, 3.0])
 @pytest.mark.parametrize(("e", "style"), [(1.0, "elastic"), (0.7, "viscous"), (0.7, "plastic")])
 def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
@@ -115,8 +103,8 @@ def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
 
 
 # Zones of the patch from outside, and friction by stress: 2 pi times the integral of r times
-# stress, which Abel's transform keeps. Then how far each spring leans.
-PATCH = f"""(impact, times) => times.map((time) => {{
+# stress, which Abel's transform keeps. Then the way of each arrow, and how far each spring leans.
+PATCH = f"""(impact, times, sign) => times.map((time) => {{
   const {{ contact, e }} = impact;
   const row = models.at(contact, time), motion = continuum.normal(e, contact.style);
   const edge = Math.sqrt(row.limit.square), n = 1000;
@@ -124,23 +112,28 @@ PATCH = f"""(impact, times) => times.map((time) => {{
   const {{ stress }} = {node.expression("patch", "return { show,", "return { stress, show,")};
   const values = stress(row.density, motion.radius / motion.springs, edge, radii, 1);
   const sum = radii.reduce((sum, r, i) => sum + r * values[i], 0) * edge / n;
-  const zones = patch.show(contact.style, row, 1, motion);
+  const zones = patch.show(contact.style, row, sign, motion);
   diagram.show(impact, row, time, true);
-  const springs = drawn["diagram-row-springs"].d.split("M").slice(1);
-  const lean = (line) => (([start, ...more]) => more.at(-2) - start)(line.match(/-?[0-9.]+/g));
+  const lines = [drawn[`patch-${{contact.style}} .stress`].d, drawn["diagram-row-springs"].d];
+  const ends = lines.map((line) => line.split("M").map((one) => one.match(/-?[0-9.]+/g) ?? []));
   return [2 * sum / motion.largest, row.friction, zones.map((one) => [one.slip, one.outer]),
-    springs.map(lean)];
+    ends[0].filter((one) => one.length === 3).map(([tail, , neck]) => neck - tail),
+    ends[1].slice(1).map((line) => line.at(-2) - line[0])];
 }})"""
 
 
 @pytest.mark.parametrize(("e", "style"), [(1, "elastic"), (0.6, "viscous"), (0.6, "plastic")])
 def test_the_patch_shows_friction_and_where_it_slips(e, style, scripts):
     x, times = math.tan(math.radians(30)) / 0.4, [0.3, 0.7, 1, 1.2, 1.5]
-    shown = scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times})")
+    shown, mirrored = (
+        scripts.evaluate(f"({PATCH})({impact(style, x, e)}, {times}, {sign})") for sign in (1, -1)
+    )
     ours, friction = np.transpose([row[:2] for row in shown])
     # Positive friction is against the motion before; the feet of springs are left behind.
-    for *_, force, _, leans in shown:
-        assert abs(sum(leans)) > 1 and sum(leans) * force < 0
+    for one, other in zip(shown, mirrored, strict=True):
+        for moved in map(sum, one[3:]):
+            assert abs(moved) > 1 and moved * one[1] < 0
+        assert sum(other[3]) == pytest.approx(-sum(one[3])) and other[4] == one[4]
     assert np.abs(friction).max() > 0.3
     assert np.abs(ours - friction).max() < 0.03 * np.abs(friction).max()
     if style == "elastic":
@@ -193,27 +186,33 @@ def assert_near(values, wanted):
 
 
 @pytest.mark.parametrize("view", ["velocity", "forces", "energy"])
-def test_curves_against_incidence_are_those_of_the_package(view, scripts):
-    e, mu = 0.5, 0.5
+@pytest.mark.parametrize(("beta", "zeta2", "e"), [(*SOLID, 1), (*SOLID, 0.8), (10.0, 1.5, 0.3)])
+def test_curves_against_incidence_are_those_of_the_package(view, beta, zeta2, e, scripts):
+    mu = 0.5
     styles = scripts.evaluate(f"models.chosen({{ e: {e} }}, models.TOGGLES)")
-    assert styles == ["lumped", "rigid", *continuum.LOSSES]
-    drawn = f"({CHART})('incidence', {impact('lumped', 2.0, e)}, '{view}', {styles}, 13)"
+    assert styles == ["lumped", "rigid", *(continuum.LOSSES if e < 1 else ["elastic"])]
+    given = impact("lumped", 2.0, e, beta, zeta2)
+    drawn = f"({CHART})('incidence', {given}, '{view}', {styles}, 13)"
     markup = scripts.evaluate(drawn)
     for style in styles:
         every = 1 if style in ("lumped", "rigid") else 8
         place, values = (column[::every] for column in curve(markup, f"curve {style}"))
         place = np.maximum(place, 0)
         x = place if view == "velocity" else np.tan(np.radians(place)) / mu
-        found = packaged(style, x, *SOLID, e)
+        found = packaged(style, x, beta, zeta2, e)
         share = mu / np.hypot(1, mu * x)  # mu v2(0) over the speed before
         wanted = {
             "velocity": found.velocity,
             "forces": share * found.peak_friction,
             "energy": 2 * share**2 * found.dissipation,
         }[view]
-        assert_near(values, wanted)
+        if (beta, zeta2) == SOLID or view == "energy":
+            assert_near(values, wanted)
+        if view != "energy":
+            error = write_explorer.CURVE_ERROR * (share if view == "forces" else 1) * (every > 1)
+            assert np.all(np.abs(values - wanted) <= error + 0.3 * abs(scales(markup)[1][1])), style
     # Regimes of the model that is looked at closer.
-    edges = np.array([0.0, SOLID[1], lumped.slip_throughout_limit(*SOLID, e), np.inf])
+    edges = np.array([0.0, zeta2, lumped.slip_throughout_limit(beta, zeta2, e), np.inf])
     edges = np.minimum(edges, 13) if view == "velocity" else np.degrees(np.arctan(mu * edges))
     *places, kinds = zip(*bands(markup), strict=True)
     np.testing.assert_allclose(places, [edges[:-1], edges[1:]], atol=1e-6)
@@ -306,18 +305,16 @@ def assert_drawn(lengths, wanted, missing=0):
     assert np.abs(lengths - scale * wanted).max() < 0.2 + missing
 
 
-def arrow(outline, start=None):
-    """The vector of an arrow, from its start; one that is too short is left out, and zero."""
+def arrow(outline):
+    """The vector of an arrow; one that is too short is left out, and zero."""
     corners = np.array([one.split(",") for one in re.findall(r"[-\d.]+,[-\d.]+", outline)], float)
     if not len(corners):
         return np.zeros(2)
-    tail, tip = (corners[0] + corners[-1]) / 2, corners[3]
-    assert start is None or tail == pytest.approx(start, abs=0.2)
-    # Its head is broad behind the tip, as far on both sides.
-    behind, across = tip - (corners[2] + corners[4]) / 2, corners[2] - corners[4]
+    vector, across = corners[3] - (corners[0] + corners[-1]) / 2, corners[2] - corners[4]
+    # Its head is broad, and behind its tip.
     assert np.linalg.norm(across) > 2 * np.linalg.norm(corners[1] - corners[5])
-    assert 1 < behind @ behind <= behind @ (tip - tail) + 2 and abs(behind @ across) < 2
-    return tip - tail
+    assert np.all((corners[3] - corners[[2, 4]]) @ vector > 1)
+    return vector
 
 
 def test_the_closer_look_shows_the_contact_in_time(rubber):
