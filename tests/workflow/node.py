@@ -47,10 +47,6 @@ require("node:readline").createInterface({ input: process.stdin }).on("line", (l
 """
 
 
-class Error(Exception):
-    """What a script threw, with its stack."""
-
-
 class Scripts:
     """The scripts in a running process."""
 
@@ -60,12 +56,12 @@ class Scripts:
         self.evaluate("\n".join([BASE, *texts, "null"]))
 
     def evaluate(self, expression):
-        """Value of a JavaScript expression; its exception, or a minute without an end, raises."""
+        """Value of a JavaScript expression; what it throws, or a minute without an end, raises."""
         self._process.stdin.write(json.dumps(expression) + "\n")
         self._process.stdin.flush()
         value, problem = json.loads(self._process.stdout.readline())
         if problem is not None:
-            raise Error(problem)
+            raise RuntimeError(problem)
         return json.loads(value)
 
     def map(self, function, rows):
