@@ -213,16 +213,3 @@ def test_vanishing_compliance_tends_to_the_rigid_contact(zeta2):
     close = gap * 4 + 1e-14 * limit.dissipation
     assert (np.abs(found.dissipation - limit.dissipation) <= close)[:, slides].all()
     assert (np.abs(found.velocity) <= x).all()
-
-
-# No tangential compliance.
-
-
-def test_rigid_contact():
-    result = rigid.rebound([0.0, 1.75, 3.5, 9.0], restitution=1.0)
-    np.testing.assert_allclose(result.velocity, [0, 0, 0, 2])
-    np.testing.assert_allclose(result.peak_friction, [0, np.sqrt(0.75), 1, 1])
-    np.testing.assert_allclose(result.dissipation, [0, 1.75**2 / 7, 3.5**2 / 7, (81 - 4) / 7])
-    names = [Regime(code).name for code in result.regime]
-    assert names == ["STICK", "SLIP_STICK", "SLIP_STICK", "SLIP_THROUGHOUT"]
-    assert rigid.rebound(-9.0).velocity == -2.0
