@@ -213,3 +213,4 @@ def test_vanishing_compliance_tends_to_the_rigid_contact(zeta2):
     close = gap * 4 + 1e-14 * limit.dissipation
     assert (np.abs(found.dissipation - limit.dissipation) <= close)[:, slides].all()
     assert (np.abs(found.velocity) <= x).all()
+    assert np.unique(limit.regime[:, (0 < x) & (x < 3.5)]) == [Regime.SLIP_STICK]
