@@ -64,13 +64,15 @@ def test_impacts_without_an_answer_are_all_named(monkeypatch):
     with pytest.raises(continuum.Unsolved, match="needs 2.35e.05 steps") as refused:
         continuum.rebound([[1.0, 9.0], [2.0, 3.0]], 3.5, [[1.21, 1e-8], [1e-8, 1.21]])
     assert refused.value.impacts.tolist() == [2]  # 9 slides throughout
+    with pytest.raises(continuum.Unsolved) as refused:  # the elastic one is solved apart
+        continuum.rebound([2.0, 2.0], 3.5, [1.21, 1e-8], [1.0, 0.6], loss="viscous")
+    assert refused.value.impacts.tolist() == [1]
     monkeypatch.setattr(continuum.elastic, "MOST_STEPS", 128)
     with pytest.raises(continuum.Unsolved, match="at incidence = 3, ") as refused:
         continuum.rebound([0.0, 1e-9, 8.0, 3.0, 2.0], tolerance=1e-6)
     assert refused.value.impacts.tolist() == [3, 4]
-    monkeypatch.setattr(
-        continuum.elastic, "MOST_STEPS", 1024
-    )  # 2.0 is given up later than the others
+    # 2.0 is given up later than the others
+    monkeypatch.setattr(continuum.elastic, "MOST_STEPS", 1024)
     with pytest.raises(continuum.Unsolved) as refused:
         continuum.rebound([0.5, 0.01, 3.0, 2.0], tolerance=1e-7)
     assert refused.value.impacts.tolist() == [0, 2, 3]

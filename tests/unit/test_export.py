@@ -211,7 +211,8 @@ def test_files_name_their_range_and_errors(name, folder):
     constants |= {"STIFFNESS_MAX": 1.6, "RATIO_MAX": 3.5, "VISCOUS": 1, "PLASTIC": 2}
     constants |= {f"ERROR_{loss.upper()}": x for loss, x in export.BOUNDS[name].items()}
     header, module = ((folder / f"{name}.{ending}").read_text() for ending in ("h", "mjs"))
-    formula = re.search(r"zeta\^2, .*?: (\(.*?\)\)) for", header)[1].replace("2 (", "2 * (")
+    words = r"zeta\^2, normal over tangential stiffness: (\(.*?\)\)) for"
+    formula = re.search(words, header)[1].replace("2 (", "2 * (")
     assert eval(formula, {"nu": 0.3}) == stiffness_ratio(Material(1.0, 0.3))
     for constant, value in constants.items():
         assert f"#define {name.upper()}_{constant} {value}\n" in header

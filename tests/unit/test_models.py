@@ -133,5 +133,6 @@ def own(monkeypatch):
 def test_a_law_of_ones_own_is_a_model_like_others(own):
     solved = models.rebound("own.two-lines", X, restitution=0.8, share=0.2)
     brach = models.rebound("laws.brach", X, restitution=0.8, tangential_restitution=0.2)
+    assert np.isnan(solved.peak_friction).all()
     for name in ("velocity", "dissipation", "regime"):
         np.testing.assert_allclose(getattr(solved, name), getattr(brach, name), rtol=1e-13)

@@ -32,6 +32,7 @@ def test_balls_are_those_of_their_sources():
     assert superball.pair.friction == cross["parameters"]["friction"]["value"]
     assert superball.pair.stiffness_ratio == cross["parameters"]["stiffness_ratio"]["value"]
     assert superball.body.mass == pytest.approx(0.0462, rel=1e-3)
+    assert (tennis.body.mass, 2 * tennis.body.radius) == pytest.approx((0.0577, 0.067))
     assert (135 / 254) ** 0.5 < tennis.pair.restitution < (147 / 254) ** 0.5
     balls, n = PRESETS["billiard_balls"], r"([\d.]+)"
     for field, *ends in re.findall(rf"(\w+) {n} to {n}", balls.source):

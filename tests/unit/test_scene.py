@@ -265,6 +265,7 @@ def test_each_impact_gets_the_first_rung_that_fits():
         ("1", "continuum.viscous, table", TABLED),
         ("1", "continuum.viscous, solved", NOT_COVERED),
     }
+    assert "above the tolerance" in TOO_COARSE and "does not cover" in NOT_COVERED
     covered = rows.drop(columns="loss")[2::2]
     bound = spheres.ERROR_BOUND["viscous"]
     for tolerance, way, why in ((1.000001 * bound, "table", TABLED), (bound, "solved", TOO_COARSE)):
