@@ -22,7 +22,6 @@ def errors(v1, v2, body, friction, restitution, stiffness_ratio, stiffness):
     contact = Contact(v1, -v2, body, *settings).run()
     energy = noncollinear.kinetic_energy(v1, v2, mass)
     _, _, tangential, normal = contact.state
-    # The integration looks at friction 2001 times in a phase.
     assert found.peak_friction == pytest.approx(contact.peak_friction, rel=1e-4)
     return (
         abs(found.tangential - tangential) / max(abs(v1), v2),

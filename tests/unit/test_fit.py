@@ -154,8 +154,7 @@ def test_the_lines_have_the_contact_of_the_fit(law):
     one, lines = of_half(law)
     groups = 3.5, one.stiffness, one.damping, one.told
     said = re.findall(r"(?:before|after) +(\S+), (\S+) at x = ([\d.]+)", lines)
-    errors = one.error_before, one.error
-    np.testing.assert_allclose(np.array(said, float), errors, atol=0.0051)
+    np.testing.assert_allclose(np.array(said, float), (one.error_before, one.error), atol=0.0051)
     places = [7, 30, 60, 90]
     # Mass and radius, over those of one sphere, of the contacts that the code serves with them.
     contacts = {"pair": (1 / 2, 1 / 2), "wall": (1.0, 1.0)}
@@ -251,8 +250,7 @@ def test_the_stated_error_holds_wherever_in_a_step_contact_begins(law, pair):
     off = np.array(
         [timestep.with_dashpots(LAWS[law, one.style], x, *groups, begins=b) for b in random]
     )
-    slides = 2 * end - 3.5 * (1 + one.restitution)
-    assert np.abs(off[:, -1] - slides).max() < one.beyond + 5e-4
+    assert np.abs(off[:, -1] - 2 * end + 3.5 * (1 + one.restitution)).max() < one.beyond + 5e-4
     off = off[:, :-1]
     assert np.abs(off - one.after).max() < MOVES[law]
     off -= one.continuum

@@ -107,8 +107,7 @@ def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, ta
     shown = re.split("<h[23]", text[text.index(f'<h3 id="{name}">') + 3 :])[0]
     svg = (first_run[0] / f"figures/{name}.svg").read_bytes()
     assert base64.b64encode(svg).decode() in shown
-    slides = re.findall(r'_(light|dark)\.png">(\w+)<', shown)
-    assert all(kind == words for kind, words in slides)
+    assert all(kind == w for kind, w in re.findall(r'_(light|dark)\.png">(\w+)<', shown))
     mine = [row["comparison"] for row in tables("verdicts") if row["figure"] == name]
     assert re.findall(r'<tr id="([^"]*)"', shown) == mine
     told = pages("sources")
