@@ -3,6 +3,7 @@ from stronge1994.curve_names import SCENE, is_of_paper
 from stronge1994.ledger import entries
 
 LEDGER = "data/stronge1994/ledger.yaml"
+FACTS = "data/stronge1994/source.yaml"  # to which the ledger refers
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 try:
     config = configuration.complete(configuration.with_values(config))

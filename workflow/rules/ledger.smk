@@ -2,9 +2,9 @@ rule ledger:
     """Run every entry of the paper's ledger against the paper's model, solved to rounding."""
     input:
         plan=planned("ledger", "check_ledger", "ledger", "printed", "reference_data", "judging", "verdict_tables",
-            settings=lambda _: LEDGER_SCHEMA),
+            settings=lambda _: LEDGER_SCHEMA, reads=lambda _: [LEDGER, FACTS]),
         entries=LEDGER,
-        facts="data/stronge1994/source.yaml",  # beside the ledger, which refers to them
+        facts=FACTS,
     output:
         table="results/ledger.csv",
         measures="results/in_nature.csv",
