@@ -2,6 +2,7 @@
 
 import argparse
 import csv
+import io
 import os
 import re
 import sys
@@ -59,6 +60,8 @@ UNITS: dict[type, dict[str, str]] = {
 # Numbers that the command line accepts; Python's float() accepts others too, such as 1_000.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
+# What begins with a minus sign and is no option. The pattern of argparse lacks -1e-3 (before 3.14).
+NEGATIVE = re.compile(r"-(\.?\d|inf|nan)", re.IGNORECASE)
 # Number of incidences at which `models` measures errors.
 INCIDENCES = 65
 # Mass ratio m2/m1 of solid spheres.
@@ -82,8 +85,9 @@ dissipation [mu^2 m2 v2(0)^2],regime,model,loss
     8.0,1.0,1.0,9.0,SLIP_THROUGHOUT,rigid,none
     0
     """
-    options = _parser().parse_args(arguments)
     try:
+        _prepare_streams()
+        options = _parser().parse_args(arguments)
         options.command(options)
         sys.stdout.flush()
     except (checks.InputError, checks.ConvergenceError) as error:
@@ -98,6 +102,18 @@ dissipation [mu^2 m2 v2(0)^2],regime,model,loss
         print("planarimpact: interrupted", file=sys.stderr)
         return 130
     return 0
+
+
+def _prepare_streams() -> None:
+    """Refuse a closed standard output; letters that a terminal lacks are written as codes."""
+    for name, mode in {"stdin": "r", "stdout": "w", "stderr": "w"}.items():
+        if getattr(sys, name) is None:  # else the next file that is opened would take its place
+            setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115
+            if name == "stdout":
+                raise checks.InputError("standard output is closed")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _print(columns: Mapping[str, ArrayLike]) -> None:
@@ -307,6 +323,7 @@ def _parser() -> argparse.ArgumentParser:
         description = f"{what[0].upper()}{what[1:]}. {about}"
         added = commands.add_parser(name, help=what, description=description, **settings)
         added.register("action", None, _Once)
+        added._negative_number_matcher = NEGATIVE
         added.set_defaults(command=run, parser=added)
         return added
 

@@ -4,9 +4,11 @@ What it refuses stands in tests/refusals/planarimpact/command.toml; `scene` in t
 """
 
 import csv
+import os
 import shlex
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -130,7 +132,52 @@ def test_models_are_measured_against_the_continuum(monkeypatch, capsys):
 
 
 def test_a_reader_that_has_had_enough_is_no_error():
-    command = "planarimpact history --incidence 1 --samples 20000"
-    pipe = f"{shlex.quote(sys.executable)} -m {command} | :"
-    result = subprocess.run(["bash", "-o", "pipefail", "-c", pipe], capture_output=True, text=True)
+    result = in_a_shell("history --incidence 1 --samples 20000", "| :")
     assert result.returncode == 0 and "Traceback" not in result.stderr
+
+
+def in_a_shell(command, more, **environment):
+    """What a command does in bash, with something behind it."""
+    line = f"{shlex.quote(sys.executable)} -m planarimpact {command} {more}"
+    bash = ["bash", "-o", "pipefail", "-c", line]
+    return subprocess.run(bash, capture_output=True, text=True, env=os.environ | environment)
+
+
+@pytest.mark.parametrize("command", ["models", "rebound --incidence 1", "export {folder}/a.h --as c"])
+def test_a_closed_standard_output_is_refused_in_one_line(command, tmp_path):
+    result = in_a_shell(command.format(folder=tmp_path), ">&-")
+    assert (result.returncode, result.stdout) == (2, "") and not list(tmp_path.iterdir())
+    assert result.stderr == "planarimpact: standard output is closed\n"
+
+
+@pytest.mark.parametrize("closed", ["2>&-", "<&-", "<&- 2>&-"])
+def test_other_closed_streams_change_nothing(closed, table, tmp_path):
+    """What is told on standard error does not get into a table, nor does a file take its place."""
+    result = in_a_shell(f"scene {table} -", closed)
+    assert (result.returncode, result.stdout) == (0, in_a_shell(f"scene {table} -", "").stdout)
+
+
+def test_a_terminal_of_ascii_shows_letters_as_codes(table):
+    linked = table.with_name("Kügelchen.csv")
+    result = in_a_shell(f"scene {table} {linked}", "", PYTHONIOENCODING="ascii")
+    assert (result.returncode, result.stderr) == (0, "") and linked.is_file()
+    assert r"K\xfcgelchen.csv: 3 impacts" in result.stdout
+
+
+@pytest.fixture
+def table(tmp_path):
+    """A table, with a column that is told on standard error."""
+    text = (Path(__file__).parents[2] / "data/scenes/superball.csv").read_text()
+    (tmp_path / "in.csv").write_text(text.replace("id,", "batch,", 1))
+    return tmp_path / "in.csv"
+
+
+@pytest.mark.parametrize("x", ["-1e-3", "-0.5e0", "-1E3", "-.5", "-2"])
+@pytest.mark.parametrize("option", ["rebound --incidence", "rebound --friction 0.5 --angle"])
+def test_a_negative_number_may_have_any_notation(option, x, capsys):
+    x = x if "angle" not in option else x.replace("E3", "E1")
+    for command in (option, option.replace("rebound --incidence", "history --incidence")):
+        assert main([*command.split(), x]) == 0
+        apart = capsys.readouterr().out
+        assert main([*command.split()[:-1], f"{command.split()[-1]}={x}"]) == 0
+        assert apart == capsys.readouterr().out
