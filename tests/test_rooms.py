@@ -40,14 +40,14 @@ SOLVER = {
 REPRODUCTION = {
     "__init__": "",
     "one_thread": "",
-    "csv_tables": "",
+    "csv_tables": "ground",
     "verdict_tables": "csv_tables curve_names",
     "curve_names": "",
     "formulas": "",
     "goodness": "ground",
-    "reference_data": "csv_tables",
+    "reference_data": "ground csv_tables",
     "printed": "ground lumped",
-    "explorer": "planarimpact lumped continuum bodies collision pages",
+    "explorer": "planarimpact lumped continuum bodies collision reference_data pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
     " fit scene pandas printed csv_tables curve_names figures plan",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"

@@ -5,13 +5,14 @@ its unit in brackets. A job that failed leaves tables with the single column `er
 """
 
 import csv
-import io
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+from planarimpact.ground import csv_text
 
 Column: TypeAlias = NDArray[Any]  # numbers, or texts
 Columns: TypeAlias = dict[str, Column]
@@ -91,23 +92,25 @@ def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
 
 
 def rows_of(text: str, path: Path, columns: Iterable[str] = ()) -> list[Row]:
-    """Rows of the text of a table, which stands in the file `path` and must have some columns.
+    """Rows of the text of a table, as `numbered_rows`."""
+    return [row for _, row in numbered_rows(text, path, columns)]
+
+
+def numbered_rows(text: str, path: Path, columns: Iterable[str] = ()) -> list[tuple[int, Row]]:
+    """Rows, each with its line, of a table in the file `path`, which must have some columns.
 
     A `ValueError` names the line of a missing column or of a wrong width.
     """
     try:
-        header, *rows = list(csv.reader(io.StringIO(text, newline=""), strict=True)) or [[]]
-    except csv.Error as error:
-        raise ValueError(f"{path}: {error}") from None
+        header, rows = csv_text.rows(text)
+    except ValueError as error:
+        raise ValueError(f"{path}, {error}") from None
     for column in columns:
         if header.count(column) != 1:
             problem = "stands twice" if column in header else "is missing"
-            found = ", ".join(header)
+            found = ascii(", ".join(header))[1:-1]
             raise ValueError(f"{path}, line 1: column '{column}' {problem}; found {found}")
-    for line, row in enumerate(rows, 2):
-        if len(row) != len(header):
-            raise ValueError(f"{path}, line {line}: {len(row)} cells where {len(header)} belong")
-    return [dict(zip(header, row, strict=True)) for row in rows]
+    return [(line, dict(zip(header, row, strict=True))) for line, row in rows]
 
 
 def values(column: Sequence[str]) -> Column:

@@ -5,6 +5,7 @@ import pytest
 
 from stronge1994 import reference_data
 from stronge1994.judging import points
+from stronge1994.plan import config as configuration
 from tests.workflow.project import config, sources
 
 AXES = {
@@ -29,6 +30,8 @@ def read(folder, text):
         f"{HEADER}0.5,-0.05\n1,2.5e-1\n",
         f"\ufeff{HEADER}0.5, -.05\r\n1.,+0.25\r\n",  # BOM, CRLF and blanks
         f"who,{Y},{X}\nme,-0.05,0.5\nme,0.25,1\n",  # columns are known by their names
+        f"{X}, {Y}\r0.5, -.05\r1,0.25\r",  # CR, a blank in the header
+        f'\n"incidence\n[1]",{Y}\n0.5,-0.05\n\n \n1,0.25\n\n',  # broken by Excel; blank lines
     ],
 )
 def test_a_table_gives_its_points(text, tmp_path):
@@ -37,6 +40,16 @@ def test_a_table_gives_its_points(text, tmp_path):
 
 def test_a_point_may_lie_three_sigmas_outside_the_range(tmp_path):
     assert read(tmp_path, f"{HEADER}-0.06,-5.03\n20.06,20.03\n")[0] == (-0.06, -5.03)
+
+
+@pytest.mark.parametrize("text", ["4e-1", "0.4", "4E-1", "+.4e0", "4.e-01", "40e-2"])
+def test_a_number_of_yaml_may_have_any_notation(text, tmp_path):
+    """In all files and in --config, which Snakemake reads, the same."""
+    path = tmp_path / "a.yaml"
+    path.write_text(f"sigma: {text}\ntext: [4e-1 m, '{text}']\n")
+    assert reference_data.load_yaml(path) == {"sigma": 0.4, "text": ["4e-1 m", text]}
+    assert configuration.with_values({"sigma": text}) == {"sigma": 0.4}
+    configuration.refuse_misread_values([f"sigma={text}"])
 
 
 def test_a_merge_may_be_overridden_and_merged_again(tmp_path):

@@ -3,6 +3,7 @@
 import csv
 import gzip
 import os
+import re
 import sys
 
 import numpy as np
@@ -95,7 +96,7 @@ def test_parts_do_not_show(table, monkeypatch):
     impacts(**{"spin [rad/s]": spins}, **other).to_csv(table)
     whole, parts = table.with_name("whole.csv"), table.with_name("parts.csv")
     first = files.solve(table, whole, skip_bad=True)
-    monkeypatch.setattr(files, "BYTES", 200)
+    monkeypatch.setattr(files, "BYTES", 300)
     second = files.solve(table, parts, skip_bad=True)
     assert whole.read_text() == parts.read_text() and first.explain() == second.explain()
     found = pd.read_csv(whole)
@@ -122,6 +123,45 @@ def test_numbers_are_read_and_written_to_the_last_place(tmp_path):
     text.to_csv(tmp_path / "in.csv", index=False)
     files.solve(tmp_path / "in.csv", tmp_path / "out.parquet")
     assert pd.read_parquet(tmp_path / "out.parquet")["spin [rad/s]"].tolist() == spins.tolist()
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text.replace("\n", "\r"),
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: re.sub(r"(\w+) (\[.*?\])", r'"\1\n\2"', text),  # as Excel breaks a cell
+        lambda text: text.replace(",", ", "),
+        lambda text: "\ufeff\n" + text.replace("\n", "\n \n\n").rstrip(),
+    ],
+    ids=["CR", "CRLF", "line breaks in the header", "blanks", "blank lines"],
+)
+def test_text_may_have_any_form(table, change, small_parts):
+    """Text that others wrote; reference data take the same, see test_reference_data."""
+    wanted = files.solve(table, table.with_name("plain.csv"))
+    table.write_bytes(change(table.read_text()).encode())
+    found = files.solve(table, table.with_name("out.csv"))
+    assert found.rows == wanted.rows == COUNT
+    text = table.with_name("out.csv").read_text().replace('" ', '"')  # cells stay as they are
+    assert text == table.with_name("plain.csv").read_text()
+
+
+def test_rows_of_another_width_are_bad_rows(table, capsys, small_parts):
+    """Among other bad rows, which keep their numbers; and where no good one is left."""
+    header, *rows = table.read_text().splitlines()
+    rows[1:5] = ["1,2", " ", rows[1], rows[2].replace("2.5", "fast"), f"{rows[3]},1"]
+    table.write_text("\n".join([header, *rows]))
+    out = table.with_name("out.csv")
+    assert main(["scene", str(table), str(out)]) == 2 and not out.exists()
+    assert capsys.readouterr().err.endswith("in.csv: row 2: 2 cells where 10 belong\n")
+    assert main(["scene", str(table), str(out), "--skip-bad"]) == 0
+    bad = pd.read_csv(f"{out}.bad.csv").values.tolist()
+    assert [row for row, _ in bad] == [2, 4, 5] and len(pd.read_csv(out)) == 4
+    wanted = ["2 cells where 10", "velocity_normal [m/s] = 'fast'", "11 cells where 10"]
+    assert all(problem.startswith(words) for words, (_, problem) in zip(wanted, bad, strict=True))
+    table.write_text(f"{header}\n1\n2\n")
+    assert main(["scene", str(table), str(out), "--skip-bad"]) == 0
+    assert pd.read_csv(f"{out}.bad.csv")["row"].tolist() == [1, 2] and pd.read_csv(out).empty
 
 
 # Columns of the user alone.

@@ -332,7 +332,7 @@ def test_presets_stand_where_the_figures_say():
 
 def test_balls_have_the_numbers_of_their_presets():
     text = (node.FOLDER / "materials.yaml").read_text(encoding="utf-8")
-    for ball, said in zip(yaml.safe_load(text), write_explorer.balls(text), strict=True):
+    for ball, said in zip(yaml.safe_load(text)["balls"], write_explorer.balls(text), strict=True):
         state = dict(one.split("=") for one in said["address"].split("&"))
         if given := collision.presets().get(ball.get("preset")):
             own = given.pair.friction, given.pair.restitution, 1000 * given.body.radius

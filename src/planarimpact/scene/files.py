@@ -1,16 +1,19 @@
 """Scenes from file to file, a part at a time: tables may be larger than the memory."""
 
+import codecs
 import csv
 import gzip
 import io
+import re
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from planarimpact.collision import TOLERANCE
-from planarimpact.ground import files
+from planarimpact.ground import csv_text, files
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import columns
 from planarimpact.scene.solver import BLOCK, Solver
@@ -32,6 +35,10 @@ KINDS = CSV, GZIP, PARQUET = ".csv", ".csv.gz", ".parquet"
 STREAM = "-"
 # What is read at a time: bytes of CSV, rows of Parquet.
 BYTES, ROWS = 2**22, BLOCK
+HEAD = 2**16  # bytes that hold the header
+# A cell of CSV in quotation marks, and what stands where it ends: nothing where that is not read.
+QUOTED = re.compile(rb'"(?<![^,\r\n]")(?:[^"]|"")*+(?P<end>("[^"]?)?)')
+SEPARATORS = b"", b",", b"\r", b"\n"
 
 
 def solve(
@@ -105,8 +112,11 @@ def _solved(
     solver: Solver, source: str, skip_bad: bool, notice: Callable[[str], None] | None
 ) -> Iterator[pd.DataFrame]:
     """Solved parts of a table; a refusal names the file."""
+    skipped: dict[int, str] = {}  # rows that are no rows, by number
     try:
-        for part in _parts(source):
+        for part in _parts(source, skipped.__setitem__ if skip_bad else None):
+            if not (part.num_rows or skipped):
+                continue
             table = part.to_pandas(types_mapper=pd.ArrowDtype, ignore_metadata=True)
             names = columns.named(table)
             own = [repr(name) for name in table if name not in {*names.values(), columns.LABEL}]
@@ -115,8 +125,9 @@ def _solved(
             after = solver.solve(table, skip_bad)
             # A column has one type in all parts, whatever a part has in it.
             yield after.astype({names[name]: float for name in names.keys() - {"loss"}})
-        if not solver.rows:
+        if not solver.rows + len(skipped):
             raise InputError("it has a header, but no rows")
+        solver.insert_bad(skipped)
     except (*NO_TABLE, OSError) as error:
         if isinstance(error, OSError) and error.errno:
             raise
@@ -125,8 +136,8 @@ def _solved(
         raise InputError(f"{name}: {words}") from None
 
 
-def _parts(source: str) -> Iterator[pa.Table]:
-    """Parts of a table."""
+def _parts(source: str, skip: Callable[[int, str], None] | None) -> Iterator[pa.Table]:
+    """Parts of a table, see `_of_csv`."""
     opened = 0 if source == STREAM else source
     with open(opened, "rb", closefd=source != STREAM) as raw:
         if source.lower().endswith(PARQUET):
@@ -134,47 +145,100 @@ def _parts(source: str) -> Iterator[pa.Table]:
                 yield pa.Table.from_batches([batch])
         elif source.lower().endswith(GZIP):
             with gzip.open(raw) as unpacked:
-                yield from _of_csv(unpacked)
+                yield from _of_csv(unpacked, skip)
         else:
-            yield from _of_csv(raw)
+            yield from _of_csv(raw, skip)
 
 
-def _of_csv(file: Any) -> Iterator[pa.Table]:
-    """Parts of CSV: known columns as numbers if all cells are finite numbers, all else as text."""
-    (header,) = csv.reader([file.readline().decode("utf-8-sig")])
-    known = columns.named(header)
-    wrong: list[str] = []
+class _Checked:
+    """Bytes of CSV, looked at as they are read: Arrow itself takes the cell "0.1"5 for 0.15."""
+
+    closed = False  # Arrow asks
+
+    def __init__(self, file: Any) -> None:
+        self._file, self._line, self._rest = file, 1, b""
+        self._begin = file.read(HEAD).removeprefix(codecs.BOM_UTF8).lstrip()
+        whole = self._begin[: _end_of_lines(self._begin)] or self._begin
+        self.header = csv_text.header(csv_text.decoded(whole))
+
+    def read(self, size: int) -> bytes:
+        """The next bytes, after a look at all lines that end in them."""
+        part, self._begin = self._begin[:size], self._begin[size:]
+        part = part or self._file.read(size)
+        text = self._rest + part
+        end = _end_of_lines(text) if part else len(text)
+        csv_text.decoded(text[:end], self._line)
+        for cell in QUOTED.finditer(text, 0, end):
+            line = self._line + text[: cell.start()].count(b"\n")
+            if not cell["end"] and part:  # it has line breaks, and goes on
+                end = cell.start()
+            elif not cell["end"]:
+                raise InputError(f"line {line}: a quotation mark is not closed")
+            elif cell["end"][1:] not in SEPARATORS:
+                shown = ascii(cell[0].decode(errors="replace"))[:60]
+                words = "allowed is a comma behind a closing quotation mark"
+                raise InputError(f"line {line}: {shown}: {words}")
+        self._line, self._rest = self._line + text[:end].count(b"\n"), text[end:]
+        return part
+
+
+def _end_of_lines(text: bytes) -> int:
+    """Where the last line ends that is whole."""
+    return max(text.rfind(b"\n"), text.rfind(b"\r")) + 1
+
+
+def _of_csv(file: Any, skip: Callable[[int, str], None] | None) -> Iterator[pa.Table]:
+    """Parts of CSV: known columns as numbers if all cells are finite numbers, all else as text.
+
+    `skip` is told the number of a row with too many or too few cells, which is left out, and why.
+    """
+    checked = _Checked(file)
+    known = columns.named(checked.header)
+    problems: list[str] = []
+    blank = 0  # lines, which Arrow counts if they have blanks
 
     def refused(row: pa.csv.InvalidRow) -> str:
-        """Skip a blank line; note a row with too many or too few cells."""
+        """What to do with a row that has another number of cells than the header."""
+        nonlocal blank
         if row.text.isspace():
+            blank += 1
             return "skip"
         hint = columns.DECIMALS if row.actual_columns > row.expected_columns else ""
         cells = f"{row.actual_columns} cells where {row.expected_columns} belong{hint}"
-        wrong.append(f"row {row.number}: {cells}")
+        number = row.number - 1 - blank  # the header is row 1 of Arrow
+        if skip:
+            skip(number, cells)
+            return "skip"
+        problems.append(f"row {number}: {cells}")
         return "error"
 
     try:
         # One thread numbers the rows. Empty cells and words such as NA stay as they are.
         batches = pa.csv.open_csv(
-            file,
-            pa.csv.ReadOptions(use_threads=False, block_size=BYTES, column_names=header),
+            checked,
+            pa.csv.ReadOptions(
+                use_threads=False,
+                block_size=BYTES,
+                column_names=checked.header,
+                skip_rows_after_names=1,
+            ),
             pa.csv.ParseOptions(newlines_in_values=True, invalid_row_handler=refused),
             pa.csv.ConvertOptions(
-                column_types=dict.fromkeys(header, pa.string()),
+                column_types=dict.fromkeys(checked.header, pa.string()),
                 null_values=[],
                 strings_can_be_null=False,
             ),
         )
-        for batch in batches:
+        # A last part without rows: a table of bad rows alone has a result, too.
+        for batch in chain(batches, [pa.RecordBatch.from_pylist([], batches.schema)]):
             numbers = {known[name] for name in known.keys() - {"loss"}}
             cells = [
                 _numbers(column) if name in numbers else column
-                for name, column in zip(header, batch.columns, strict=True)
+                for name, column in zip(checked.header, batch.columns, strict=True)
             ]
-            yield pa.Table.from_arrays(cells, header)
+            yield pa.Table.from_arrays(cells, checked.header)
     except pa.ArrowInvalid as error:
-        raise InputError(wrong[0] if wrong else str(error)) from None
+        raise InputError(problems[0] if problems else str(error)) from None
 
 
 def _numbers(cells: pa.Array) -> pa.Array:

@@ -77,6 +77,15 @@ class Solver:
         blocks = [self._solved(table.iloc[k : k + BLOCK], names, skip_bad) for k in starts]
         return pd.concat(blocks) if len(blocks) > 1 else blocks[0]
 
+    def insert_bad(self, skipped: dict[int, str]) -> None:
+        """Add rows that were left out before `solve`, by number, to `bad`: later ones move on."""
+        places = np.sort(np.array(list(skipped), dtype=int)) - np.arange(len(skipped))
+        rows = [row for row, _ in self.bad]
+        moved = rows + np.searchsorted(places, rows, side="right")
+        problems = dict(zip(moved.tolist(), (problem for _, problem in self.bad), strict=True))
+        self.bad = sorted((problems | skipped).items())
+        self.rows += len(skipped)
+
     def explain(self) -> str:
         """Text that says how many impacts each model solved and why, a line for each.
 

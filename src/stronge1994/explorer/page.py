@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any, TypeAlias
 from urllib.parse import urlencode
 
-import yaml
 from markupsafe import Markup, escape
 
 from planarimpact import bodies, collision, continuum
 from stronge1994.pages import templates
+from stronge1994.reference_data import strict_yaml
 
 State: TypeAlias = dict[str, Any]  # of the controls, by their names
 
@@ -94,10 +94,10 @@ def address(state: Mapping[str, float]) -> str:
 def balls(text: str) -> list[dict[str, str]]:
     """The balls of materials.yaml: name, address, and what the page says about their numbers.
 
-    >>> balls("[{name: steel, state: {friction: 0.1}, source: measured, beware: It yields.}]")
-    [{'name': 'steel', 'address': 'friction=0.1', 'about': 'It yields. Numbers: measured.'}]
+    >>> balls("balls: [{name: a, state: {friction: 1e-1}, source: measured, beware: It yields.}]")
+    [{'name': 'a', 'address': 'friction=0.1', 'about': 'It yields. Numbers: measured.'}]
     """
-    return [_ball(**ball) for ball in yaml.safe_load(text)]
+    return [_ball(**ball) for ball in strict_yaml.load(text)["balls"]]
 
 
 def _ball(
@@ -129,7 +129,7 @@ def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[
         limits=LIMITS,
         presets={figure: address(state) for figure, state in presets(settings).items()},
         bodies={name: round(float(bodies.mass_ratio(body)), 12) for name, body in BODIES.items()},
-        materials=balls(texts["materials.yaml"]),
+        materials=balls(str(texts["materials.yaml"])),
         sources=texts,
         scripts=SCRIPTS,
         error=CONTINUUM_ERROR,

@@ -126,7 +126,7 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
             if kind == "source":
                 _check_source(where, value, setting.get("parameters", []), inventory)
             if kind == "table" and "kind" not in reference(inventory, value, where):
-                raise ConfigError(f"{where}: '{value}' is no series")
+                raise ConfigError(f"{where}: {value!a} is no series")
     for scene in config["scenes"]:
         if not Path(f"data/scenes/{scene}.csv").is_file():
             raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
@@ -134,24 +134,24 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
     for name, comparison in config["comparisons"].items():
         if comparison["figure"] not in judged(config):
             raise ConfigError(
-                f"config: comparisons.{name}.figure: '{comparison['figure']}' is not judged; "
+                f"config: comparisons.{name}.figure: {comparison['figure']!a} is not judged; "
                 "allowed are " + ", ".join(judged(config))
             )
         _check_comparison(f"config: comparisons.{name}", comparison, inventory)
         entry = comparison.get("documented", {}).get("entry")
         if entry is not None and entry not in ledger:
             raise ConfigError(
-                f"config: comparisons.{name}.documented.entry: '{entry}' is not in the ledger; a "
+                f"config: comparisons.{name}.documented.entry: {entry!a} is not in the ledger; a "
                 "difference that does not concern the paper has a `note` instead"
             )
 
 
 def _check_source(where: str, name: str, needed: list[str], inventory: Inventory) -> None:
     if name not in inventory:
-        raise ConfigError(f"{where}: '{name}' is not in data/; allowed are {', '.join(inventory)}")
+        raise ConfigError(f"{where}: {name!a} is not in data/; allowed are {', '.join(inventory)}")
     missing = set(needed) - set(inventory[name]["parameters"])
     if missing:
-        problem = f"'{name}' states no {min(missing)}; needed are {', '.join(needed)}"
+        problem = f"{name!a} states no {min(missing)}; needed are {', '.join(needed)}"
         raise ConfigError(f"{where}: {problem}")
 
 
@@ -207,4 +207,4 @@ def reference(inventory: Inventory, name: str, where: str = "reference") -> Entr
     for kind in ("series", "facts"):
         if entry in inventory.get(source, {}).get(kind, {}):
             return inventory[source][kind][entry]
-    raise ConfigError(f"{where}: '{name}' is neither a series nor a fact in data/")
+    raise ConfigError(f"{where}: {name!a} is neither a series nor a fact in data/")

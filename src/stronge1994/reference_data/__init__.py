@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from planarimpact.ground import csv_text
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Columns
 from stronge1994.reference_data import strict_yaml
@@ -127,14 +128,11 @@ _parsed = functools.cache(strict_yaml.load)  # a start reads some files twice
 def text_of(path: str | Path) -> str:
     """Text of a file in UTF-8; of one that is none a `SourceError` names the line."""
     try:
-        content = Path(path).read_bytes()
-        return content.decode("utf-8-sig")
+        return csv_text.decoded(Path(path).read_bytes())
     except OSError as error:
         raise SourceError(f"{path}: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        problem = f"byte 0x{content[error.start]:02x} is no UTF-8; save the file as UTF-8"
-        raise SourceError(f"{path}, line {line}: {problem}") from None
+    except ValueError as error:
+        raise SourceError(f"{path}, {error}") from None
 
 
 def load_all(data: str | Path, schema: Schema) -> dict[str, Source]:
@@ -158,7 +156,8 @@ def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
         allowed = f"; allowed are {', '.join(known)}" if "unexpected" in errors[0].message else ""
         if errors[0].validator == "minLength":
             allowed = f"; allowed are texts of {errors[0].validator_value} characters or more"
-        raise SourceError(f"{name}: {where}: {errors[0].message}{allowed}")
+        message = f"{where}: {errors[0].message}".encode("ascii", "backslashreplace").decode()
+        raise SourceError(f"{name}: {message}{allowed}")
     for where, value in _leaves(document):
         if isinstance(value, float) and not math.isfinite(value):
             raise SourceError(f"{name}: {where}: {value} is not a finite number")
@@ -220,17 +219,17 @@ def arrays(series: Series) -> Columns:
         if printed:
             axes[printed] = {"range": [0.0, high - low], "sigma": 0.0}
     try:
-        rows = csv_tables.rows_of(text_of(path), path, [*labels, *axes])
+        rows = csv_tables.numbered_rows(text_of(path), path, [*labels, *axes])
     except ValueError as error:
         raise SourceError(str(error)) from None
     if not rows:
         raise SourceError(f"{path}: no points")
-    columns: Columns = {label: np.array([row[label] for row in rows]) for label in labels}
+    columns: Columns = {label: np.array([row[label] for _, row in rows]) for label in labels}
     for column, axis in axes.items():
         columns[column] = np.full(len(rows), math.nan)
-        for place, row in enumerate(rows):
+        for place, (line, row) in enumerate(rows):
             if row[column] or column not in may_be_empty:
-                where = f"{path}, line {place + 2}, column '{column}'"
+                where = f"{path}, line {line}, column '{column}'"
                 columns[column][place] = _number(row[column], axis, where)
     return columns
 

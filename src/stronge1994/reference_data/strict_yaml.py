@@ -1,6 +1,7 @@
-"""YAML that is refused where PyYAML would read something else than the file seems to say.
+"""YAML 1.2, refused where a reader of YAML 1.1, as Snakemake has, finds something else in it.
 
-PyYAML silently keeps the last of two equal keys, and reads 010 as 8, 6:40 as 400, 1_21 as 121.
+PyYAML, of YAML 1.1, silently keeps the last of two equal keys, reads 010 as 8, 6:40 as 400, 1_21 as
+121, no as false, and takes 4e-1 for a text. Snakemake's config has its numbers from `NUMBERS` too.
 """
 
 import re
@@ -17,7 +18,15 @@ NUMBERS = {
 }
 # All other kinds of values: a date would be no text.
 KINDS = ("str", "bool", "null", "seq", "map", "merge")
-Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # some installations lack the fast one
+_Fast: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # some installations lack it
+
+
+class Loader(_Fast):
+    """A loader that knows the numbers of YAML 1.2: 4e-1 too."""
+
+
+_FLOAT = re.compile(f"(?:{NUMBERS['float'].pattern})$", flags=re.I)
+Loader.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, [*"+-.0123456789"])
 
 
 def load(text: str) -> dict[str, Any]:
@@ -54,16 +63,18 @@ def _check(node: yaml.Node) -> None:
 
     kind = node.tag.rpartition(":")[2]
     if kind in NUMBERS and not NUMBERS[kind].fullmatch(node.value):
-        refuse(f"{node.value[:60]!r} is no decimal number such as -0.05", node)
+        refuse(f"{node.value[:60]!a} is no decimal number such as -0.05", node)
     if kind not in (*NUMBERS, *KINDS):
-        refuse(f"{str(node.value)[:60]!r} is a {kind}; a text has quotes around it", node)
+        refuse(f"{str(node.value)[:60]!a} is a {kind}; a text has quotes around it", node)
+    if kind == "bool" and node.value.lower() not in ("true", "false"):
+        refuse(f"{node.value!a}: allowed are true and false; a text has quotes around it", node)
     if isinstance(node, yaml.MappingNode):
         known = set()
         for key, value in node.value:
             if key.tag.rpartition(":")[2] not in ("str", "merge") or isinstance(key.value, list):
-                refuse(f"the key {key.value!r} is no text", key)
+                refuse(f"the key {key.value!a} is no text", key)
             if key.value in known:
-                refuse(f"the key '{key.value}' stands twice", key)
+                refuse(f"the key {key.value!a} stands twice", key)
             known.add(key.value)
             _check(value)
     elif isinstance(node, yaml.SequenceNode):
