@@ -167,8 +167,9 @@ class _Checked:
         part = part or self._file.read(size)
         text = self._rest + part
         end = _end_of_lines(text) if part else len(text)
-        csv_text.decoded(text[:end], self._line)
-        for cell in QUOTED.finditer(text, 0, end):
+        if not text.isascii():  # both looks take their time
+            csv_text.decoded(text[:end], self._line)
+        for cell in QUOTED.finditer(text, 0, end) if b'"' in text else ():
             line = self._line + text[: cell.start()].count(b"\n")
             if not cell["end"] and part:  # it has line breaks, and goes on
                 end = cell.start()
