@@ -38,16 +38,15 @@ NO_LINES |= {"yielding": "runs"}
 
 @pytest.fixture(scope="module")
 def given(first_run):
-    """Tables of a figure, and a function that draws it from them."""
+    """Tables of a figure, a function that draws it from them, and its points."""
 
     def of(figure):
         project, _ = first_run
         settings = json.loads((project / plans.path(f"draw_{figure}")).read_text())["settings"]
         points = drawings.series(settings["overlays"])
         module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
-        return csv_tables.read(
-            project / f"results/curves/{figure}.csv"
-        ), lambda curves: module.draw(curves, settings["settings"], points)
+        curves = csv_tables.read(project / f"results/curves/{figure}.csv")
+        return curves, lambda curves: module.draw(curves, settings["settings"], points), points
 
     return of
 
@@ -75,7 +74,7 @@ class Watched(dict):
 @pytest.mark.parametrize("figure", figures.stated())
 def test_a_line_is_a_curve_of_the_table_and_each_curve_is_drawn(given, figure):
     """Column against column."""
-    curves, draw = given(figure)
+    curves, draw, _ = given(figure)
     seen = set()
     watched = {name: Watched(curve) for name, curve in curves.items()}
     for line in [line for axes in draw(watched).axes for line in axes.lines]:
@@ -88,6 +87,21 @@ def test_a_line_is_a_curve_of_the_table_and_each_curve_is_drawn(given, figure):
     assert [
         n for n in names if n not in seen and not re.search(NO_LINES.get(figure, "^$"), n)
     ] == []
+
+
+def test_a_series_that_is_compared_is_drawn_by_its_drawing_or_beside_it(given):
+    curves, draw, _ = given("fig6")
+    series = {"x": [2.0, 6.0], "y": [0.5, 1.0], "sigma": (0.1, 0.2), "kind": "digitised"}
+    axes = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
+    points = {"mine/spheres": series | {"name": "mine/spheres", "axes": axes}}
+    (panel,) = drawings.with_all(draw(curves), curves, points).axes
+    assert [text.get_text() for text in panel.get_legend().get_texts()] == ["mine/spheres"]
+    assert panel.containers[0].lines[0].get_xydata().tolist() == [[2, 0.5], [6, 1]]
+    # Fig. 5 draws its own, but for those of axes that it lacks.
+    curves, draw, points = given("fig5")
+    lines = [line for axes in draw(curves).axes for line in axes.lines]
+    whole = drawings.with_all(draw(curves), curves, points)
+    assert len([line for axes in whole.axes for line in axes.lines]) == len(lines)
 
 
 def shown(figure):
@@ -134,7 +148,7 @@ LOOKED_AT = Path(__file__).with_name("pictures.yaml")
 @pytest.mark.parametrize("figure", [figure for figure in figures.stated() if figure != "trade"])
 def test_a_picture_is_the_one_that_was_looked_at(given, figure):
     """After a change that is meant, delete its entry, run this, and look at the picture."""
-    curves, draw = given(figure)
+    curves, draw, _ = given(figure)
     stored = yaml.safe_load(LOOKED_AT.read_text(encoding="utf-8")) or {}
     found = [[words, *numbers] for words, numbers in shown(draw(curves))]
     if figure not in stored:
@@ -149,7 +163,7 @@ def test_a_picture_is_the_one_that_was_looked_at(given, figure):
 
 
 def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, first_run):
-    curves, draw = given("trade")
+    curves, draw, _ = given("trade")
     rows = pd.read_csv(first_run[0] / "data/other_codes/impacts.csv")
     rows = rows[(rows["restitution [1]"] == 0.8) & (rows["loss"] == "viscous")]
     times = rows["times_table [1]"] * curves["spheres.viscous, e = 0.8, viscous"]["time_100 [s]"][0]

@@ -1,7 +1,6 @@
 """The tables of figures and of sources in the READMEs, made from their folders.
 
-After a figure or a source was added:
-`PYTHONPATH=src .venv/bin/python -m stronge1994.plan.readmes`.
+A test compares them, and writes them where they differ.
 """
 
 import re
@@ -36,8 +35,3 @@ def _filled(text: str, rows: Iterable[Iterable[str]]) -> str:
     table = "".join(f"| {' | '.join(row)} |\n" for row in rows)
     marks = r"(<!-- (?:figures|sources) -->\n).*?(<!-- end -->)"
     return re.sub(marks, lambda mark: f"{mark[1]}{table}{mark[2]}", text, flags=re.S)
-
-
-if __name__ == "__main__":
-    for path, text in texts().items():
-        path.write_text(text, encoding="utf-8")

@@ -4,10 +4,16 @@ Nothing here solves: pictures are made from tables alone.
 """
 
 import importlib
+import itertools
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
 from stronge1994 import csv_tables, reference_data
+from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.figures.shared.drawing.house_style import Points, Series
 
@@ -20,24 +26,62 @@ def draw(
     The plan has the settings, the reference series that are not awaited, and facts.
     """
     module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
-    given = csv_tables.read(curves_path), plan["settings"], series(plan["overlays"])
-    house_style.save(module.draw(*given), pictures["svg"], pictures["png"])
+    curves, points = csv_tables.read(curves_path), series(plan["overlays"])
+
+    def drawn() -> Figure:
+        return with_all(module.draw(curves, plan["settings"], points), curves, points)
+
+    house_style.save(drawn(), pictures["svg"], pictures["png"])
     if plan["slide"]:
         grounds = {name: pictures[name] for name in ("light", "dark")}
-        slide.save(module.draw(*given), **plan["slide"], **grounds)
+        slide.save(drawn(), **plan["slide"], **grounds)
+
+
+def with_all(figure: Figure, curves: Curves, points: Points) -> Figure:
+    """A figure with those series that its drawing has left out, each where a panel has its axes.
+
+    So nothing is compared in silence. A series of other axes, such as one against an angle that is
+    compared with a table of the same impacts, has no place in the figure: the report shows it.
+    """
+    drawn = set()
+    for line in figure.findobj(Line2D):
+        drawn.add(line.get_gid())  # of `house_style.measured`
+        line.set_gid(None)  # in a file it would be an id, and some series have several lines
+    for name, one in points.items():
+        if one.get("kind") in (None, "computed") or name in drawn:  # a stated fact is no series
+            continue
+        for axes in figure.axes:
+            lines = itertools.product(axes.lines, curves.values())
+            if any(_shows(line, curve, *one["axes"]) for line, curve in lines):
+                style = {"marker": "o", "markerfacecolor": "white", "label": name}
+                axes.legend(handles=[house_style.measured(axes, one, **style)])
+                break
+    return figure
+
+
+def _shows(line: Line2D, curve: Columns, x: str, y: str) -> bool:
+    """Whether a line is column `y` of a curve against `x`, where it has no gap."""
+    if not {x, y} <= curve.keys() or not np.array_equal(line.get_xdata(), curve[x]):
+        return False
+    height = np.asarray(line.get_ydata())
+    there = np.isfinite(height)
+    return bool(there.any()) and np.array_equal(height[there], curve[y][there])
 
 
 def series(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
     """Reference series as a drawing gets them, from the overlays of its plan."""
     return {
-        name: _points(entry) if "kind" in entry else dict(entry) for name, entry in overlays.items()
+        name: _points(name, entry) if "kind" in entry else dict(entry)
+        for name, entry in overlays.items()
     }
 
 
-def _points(entry: Mapping[str, Any]) -> Series:
+def _points(name: str, entry: Mapping[str, Any]) -> Series:
     columns = reference_data.arrays(entry)
     printed = [reference_data.sigma_column(entry[axis]) for axis in "xy"]
     return {
+        "name": name,
+        "kind": entry["kind"],
         "x": columns[reference_data.column_name(entry["x"])],
         "y": columns[reference_data.column_name(entry["y"])],
         "sigma": tuple(

@@ -7,10 +7,10 @@ A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py 
   of a curve and takes the labels of the axes and of the legend from their names;
 - `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
   table they have no more than the name;
-- `points`, the series of data/ that are at hand, `{"source/series": {...}}` with arrays `x` and
-  `y`, their `sigma`, the names of both columns as `axes`, all `columns` and the source's
-  `parameters`, of those that were computed only what figure.yaml `draws`; and stated facts, as in
-  source.yaml. `measured` draws such points.
+- `points`, the series of data/ that are at hand, `{"source/series": {...}}` with their `name`, the
+  arrays `x` and `y`, their `sigma`, the names of both columns as `axes`, all `columns` and the
+  source's `parameters`, of those that were computed only what figure.yaml `draws`; and stated
+  facts, as in source.yaml. `measured` draws such points.
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
@@ -259,6 +259,7 @@ def measured(axes: Axes, series: Series, **style: Any) -> Artist:
     axes.set(xlabel=x_label, ylabel=y_label)
     x_error, y_error = series["sigma"]
     bars = {"linestyle": "none", "elinewidth": 0.7, "markeredgewidth": 0.9, "zorder": 3}
+    bars["gid"] = series["name"]  # by which `draw` knows that it is drawn
     return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
 
 
