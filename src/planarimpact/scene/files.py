@@ -61,8 +61,9 @@ def solve(
     tolerance, loss : float, str
         As in `solve`.
     skip_bad : bool
-        Leave bad rows out instead of refusing the table. They are in `bad` of the result, and in a
-        file beside the target, `<its name>.bad.csv`, which is written also if no row is bad.
+        Leave bad rows out, also those with the wrong number of cells, instead of refusing the
+        table. They are in `bad` of the result, and in a file beside the target,
+        `<its name>.bad.csv`, which is written also if no row is bad.
     notice : callable, optional
         Called with a line of text: which columns are not known.
 
