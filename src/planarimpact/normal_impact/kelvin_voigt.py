@@ -181,7 +181,7 @@ def compress(state: Array, tau: Array) -> Array:
     """Rates of radius, velocity and time in compression, by sigma."""
     radius, v, _ = state
     square = radius * radius
-    return np.stack([v, -(8 / 3) * square * (square + 1.5 * tau * v), 2 * radius])
+    return np.array([v, -(8 / 3) * square * (square + 1.5 * tau * v), 2 * radius])
 
 
 def restore(state: Array, tau: Array) -> Array:
@@ -189,7 +189,7 @@ def restore(state: Array, tau: Array) -> Array:
     radius, v, _ = state
     square = radius * radius
     k = (4 / 3) * tau * square
-    return np.stack([v - k * radius, -(8 / 3) * square * square, 2 * radius]) / (1 + k)
+    return np.array([v - k * radius, -(8 / 3) * square * square, 2 * radius]) / (1 + k)
 
 
 def at_largest_force(compression: "Half", tau: Array) -> tuple[Array, Array]:
