@@ -2,10 +2,9 @@
 
 OMP_NUM_THREADS=1 python tests/benchmarks/collide_speed.py
 
-src/README.md states: 30 us for one, 50 us where restitution follows from the speed, 2 s for a
-million. These are solid spheres, each with its own pair of materials: half of them viscous and half
-plastic, with restitution from 0.3 to 1, or all with a yield pressure, from which restitution
-follows. Times are those of the processor, and in brackets those of the clock.
+These are solid spheres, each with its own pair of materials: half of them viscous and half plastic,
+with restitution from 0.3 to 1, or all with a yield pressure, from which restitution follows. Times
+are those of the processor, and in brackets those of the clock.
 """
 
 import time

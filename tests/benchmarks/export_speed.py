@@ -2,10 +2,10 @@
 
     OMP_NUM_THREADS=1 python tests/benchmarks/export_speed.py
 
-src/README.md states 0.2 us in C, and 1 us in JavaScript. A loop over random impacts, best of
-several: each has its own pair, and none slides throughout, which would be quicker. The sums of all
-answers must be alike; they also keep the compiler from leaving the loop out. The time is that of
-the processor. C is left out where no compiler is, JavaScript where node is missing.
+A loop over random impacts, best of several: each has its own pair, and none slides throughout,
+which would be quicker. The sums of all answers must be alike; they also keep the compiler from
+leaving the loop out. The time is that of the processor. C is left out where no compiler is,
+JavaScript where node is missing.
 """
 
 import shutil

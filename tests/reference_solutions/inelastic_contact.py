@@ -17,7 +17,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
-EXACT = {"rtol": 1e-10, "atol": 1e-12, "method": "DOP853"}
+EXACT = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853"}
 LONGEST = 1e3  # time after which a contact has surely ended
 SHORT = 0.01  # of the duration: what is no gross slip
 FLOW = 0.95  # by exp(-FLOW) a deflection decays while d_y of the approach becomes permanent

@@ -145,10 +145,10 @@ def test_yield_begins_at_the_yield_speed():
 
 @pytest.mark.parametrize(
     ("ball", "speed", "e"),
-    [(STEEL, 1e-3, 0.99), (RUBBER, 30.0, 0.8), (STEEL, 0.7, 0.3), (RUBBER, 1e-3, 0.05)],
+    [(STEEL, 1e-3, 0.99), (RUBBER, 30.0, 0.8), (STEEL, 0.7, 0.3), (RUBBER, 1e-3, 0.022)],
 )
 def test_restitution_and_force_are_those_of_the_motion(ball, speed, e):
-    """The motions by SciPy, in units of effective mass, modulus, radius and speed."""
+    """The motions by SciPy to 1e-11, in units of effective mass, modulus, radius and speed."""
     mass, modulus, radius = ball.values()
     length = (mass * speed**2 / (modulus * np.sqrt(radius))) ** 0.4
     unit = modulus * np.sqrt(radius) * length**1.5
@@ -159,8 +159,8 @@ def test_restitution_and_force_are_those_of_the_motion(ball, speed, e):
     materials["plastic"] = 2 / np.pi * modulus * yield_radius * np.sqrt(length / radius)
     for loss, (law, inverse) in LAWS.items():
         material = materials[loss]
-        assert law(speed, material, **ball) == pytest.approx(e, abs=1e-8)
-        assert inverse(e, speed, **ball) == pytest.approx(material, rel=1e-6)
+        assert law(speed, material, **ball) == pytest.approx(e, abs=1e-10)
+        assert inverse(e, speed, **ball) == pytest.approx(material, rel=1e-8)
         found = bodies.peak_force(speed=speed, restitution=e, loss=loss, **ball)
         assert found == pytest.approx(motions[loss].peak * unit, rel=1e-8)
     elastic = plastic_motion(1.2)  # it never yields

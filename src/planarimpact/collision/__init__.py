@@ -131,11 +131,11 @@ def collide(
     tolerance : float
         Largest error of the velocity of the contact point, in mu v2(0), against the continuum;
         1e-10 to 1. In v1(0) it is at most the default. The default is that of the table of spheres:
-        about a microsecond an impact in an array, some 30 for one alone, or 50 by a law of
-        restitution, and 50 ms for the first one, as the table is read.
+        about a microsecond an impact in an array, some tens of them for one alone, and tens of
+        milliseconds for the first one, as the table is read.
         Impacts for which the table is too coarse, or which it does not cover (e below 0.3, zeta^2
-        above 1.6), take milliseconds each in a batch of hundreds, alone a tenth of a second, and at
-        mass ratios of a hundred seconds; `continuum.rebound` says what it can meet.
+        above 1.6), take milliseconds each in a batch of hundreds, alone about a tenth of a second,
+        and at mass ratios of hundreds up to seconds; `continuum.rebound` says what it can meet.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""One impact in Python's own floats, for event-driven codes: some 30 microseconds.
+"""One impact in Python's own floats, for event-driven codes: some tens of microseconds.
 
 The physics is that of `mechanics` and `rungs`, in numbers instead of arrays; a test compares them.
 They answer what is left to them here: a bad argument, no approach, no friction, numbers beyond

@@ -160,7 +160,7 @@ def rebound(
         happens where the tangential spring is very stiff, where c^2 m1 m2 is within about 1e-7 of
         1, and where friction holds the contact closed (mu |c| m2 > 1) while the normal force
         oscillates with a small e that is not 0. Many phases take long: a thousand random impacts
-        about 0.1 s at e = 0.5, and 40 s at e = 1e-4.
+        less than a second at e = 0.5, and up to a minute at e = 1e-4.
 
     Notes
     -----

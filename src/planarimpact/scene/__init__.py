@@ -63,8 +63,8 @@ def solve(
         For what is no DataFrame, columns that are missing, misspelt or do not go together, or a bad
         row, by its number from 1, such as one below restitution 1 whose loss nobody says.
     ConvergenceError
-        If the continuum does not reach the tolerance, by the row. It takes some milliseconds an
-        impact, above a mass ratio of 100 seconds; above some 10 000 most impacts end like this.
+        If the continuum does not reach the tolerance, by the row. It takes milliseconds an impact,
+        at mass ratios of hundreds up to seconds; above some 10 000 most impacts end like this.
 
     Examples
     --------

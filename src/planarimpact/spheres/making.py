@@ -6,7 +6,6 @@ and with twice as many, and extrapolated: then neighbours have neighbouring erro
 `python -m planarimpact.spheres.making` makes both tables of the package anew, in some minutes.
 """
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -76,8 +75,8 @@ PLANS = {
 }
 
 
-def make(name: str = "fine", say: Callable[[str], None] = print) -> Table:
-    """Make a table, one of `PLANS`; the fine one takes some six minutes."""
+def make(name: str = "fine") -> Table:
+    """Make a table, one of `PLANS`; the fine one takes some minutes."""
     plan = PLANS[name]
     limits = thresholds.limits(b_at(np.linspace(0.0, 1.0, plan.edges[1] + 1)))
     panels = {}
@@ -87,7 +86,7 @@ def make(name: str = "fine", say: Callable[[str], None] = print) -> Table:
         for number in range(len(over_s)):
             values = nodes_of(panel, plan, edges, limits, number)
             patches.append([splined(function) for function in values])
-            say(f"{panel}, patch {number + 1} of {len(over_s)}: {values[0].size} nodes")
+            print(f"{panel}, patch {number + 1} of {len(over_s)}: {values[0].size} nodes")
         panels[panel] = _joined(panel, plan, edges, patches)
     return Table(plan.exponent, limits, panels)
 

@@ -20,7 +20,9 @@ from typing import IO, Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.normal_impact import hertz, kelvin_voigt, yielding
 
 # Bounds of b and e: a little wider than those that `spheres` admits.
 B_LEAST, B_MOST, E_LEAST = 1.55, 3.55, 0.295
@@ -92,9 +94,29 @@ def shipped(name: str = "fine") -> Table:
         return read(file)
 
 
+def laws() -> list[str]:
+    """What the laws of normal impact say of one state, with nothing solved: a table states it."""
+    state, tau = np.array([1.0, 0.5, 0.0]), np.array(1.0)
+    compression, restitution = kelvin_voigt.compress(state, tau), kelvin_voigt.restore(state, tau)
+    loading, depth = yielding.Loading(*np.ones(4)), np.array(2.0)
+    numbers = {
+        "elastic time": hertz.FULL**0.4 * hertz.COMPRESSION,
+        "viscous force": -compression[1] / compression[2],
+        "viscous relaxation": restitution[1] / restitution[0],
+        "plastic restitution": yielding.restitution(np.array(0.1)),
+        "FLOW": yielding.FLOW,
+        "plastic flow": loading.flow(depth),
+        "plastic pull": loading.pull(depth, yielding.FLOW)[0],
+    }
+    return [f"{name} {number:.9g}" for name, number in numbers.items()]
+
+
 def read(file: IO[bytes]) -> Table:
-    """Read a table that `write` wrote."""
+    """Read a table that `write` wrote; one of other laws is refused."""
     with np.load(file) as arrays:
+        if (made := arrays.get("laws", np.empty(0)).tolist()) != laws():
+            words = f"table of spheres: it was made from laws with {made}; allowed are {laws()}, or"
+            raise checks.InputError(f"{words} a new one: python -m planarimpact.spheres.making")
         exponent, panels = int(arrays["exponent"]), {}
         for name in ROOTS:
             packed = (real(_summed(arrays[f"{name}.{key}"]), exponent) for key in PACKED)
@@ -104,7 +126,7 @@ def read(file: IO[bytes]) -> Table:
 
 def write(file: IO[bytes], table: Table) -> None:
     """Write a table, compressed: numbers are stored as `steps` of whole numbers."""
-    arrays: dict[str, Any] = {"exponent": table.exponent, "limits": table.limits}
+    arrays: dict[str, Any] = {"exponent": table.exponent, "limits": table.limits, "laws": laws()}
     for name, panel in table.panels.items():
         arrays[f"{name}.intervals"] = panel.intervals
         for key in PACKED:
