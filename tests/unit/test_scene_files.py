@@ -169,14 +169,6 @@ def test_cells_of_parquet_keep_their_types_also_where_some_are_missing(tmp_path,
 # Nothing is half-written.
 
 
-def test_half_a_file_is_named(table):
-    packed, out = table.with_name("half.csv.gz"), table.with_name("out.csv")
-    packed.write_bytes(gzip.compress(table.read_bytes())[:-9])
-    with pytest.raises(InputError, match="half.csv.gz: "):
-        files.solve(packed, out)
-    assert not out.exists()
-
-
 def test_a_bad_row_leaves_nothing_behind_or_is_left_out(table, capsys, small_parts):
     """Also where parts before it are solved already. An earlier result survives."""
     rows = impacts()
