@@ -5,9 +5,12 @@ import pickle
 from functools import partial, update_wrapper
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from planarimpact import (
+    ConvergenceError,
+    InputError,
     Pair,
     bodies,
     collide,
@@ -18,6 +21,7 @@ from planarimpact import (
     models,
     noncollinear,
     scene,
+    spheres,
 )
 from planarimpact.bodies import Body, Motion
 from planarimpact.continuum import annuli, cattaneo_mindlin, micro_slip
@@ -94,20 +98,14 @@ decorated = laws.of_velocity(half)
 update_wrapper(decorated, half).__qualname__ = "decorated"  # as by its `@`
 
 
-def refusal(call, *arguments):
-    with pytest.raises((ValueError, ArithmeticError)) as refused:
-        call(*arguments)
-    return refused.value
-
-
 OBJECTS = [
     *(call() for call in CALLS),
     *(collide(pair, [0, 0, 1], BALL, [1, 0, -3.0], [0, 2.0, 0]) for pair in (PAIR[0], PAIR, MANY)),
     *(STEEL, BALL, PAIR, scene.Solver(0.1, "viscous"), bodies.contact(BALL, STEEL)),
     *(fit.fit("yade", incidence_max=2.0), *fit.CODES.values(), *collision.presets().values()),
     *(*models.MODELS.values(), models.Model("half", laws.of_velocity(half)), decorated),
-    *(refusal(lumped.rebound, np.nan), refusal(bodies.solid_sphere, 1e300, 1e300)),
-    *[refusal(continuum.rebound, [1.0, 2.0], 1e9)],
+    *(InputError("refused"), bodies.OutOfRange({1: "too large"}), ConvergenceError("given up")),
+    *[continuum.Unsolved("needs more steps", np.array([1, 2]))],
 ]
 
 
@@ -134,3 +132,17 @@ def test_what_is_given_survives_pickle_and_copies(thing, again):
         data = sum(getattr(value, "nbytes", 0) for value in vars(thing).values())
         assert "model_form" not in vars(found) and len(pickle.dumps(thing)) < 1.6 * data + 2000
         np.testing.assert_array_equal(found.model_form, again(thing).model_form)
+
+
+@pytest.mark.parametrize("kind", ["object", "string", "category", "Sparse[object]"])
+def test_losses_may_be_a_column_of_pandas(kind):
+    """In which one is missing where nothing is lost."""
+    groups = {
+        "restitution": [0.8, 1.0, 0.8],
+        "loss": pd.Series(["plastic", None, "viscous"], dtype=kind),
+    }
+    assert Pair(STEEL, friction=0.3, **groups).plastic.tolist() == [True, False, False]
+    wanted = spheres.rebound(
+        2.0, restitution=[0.8, 1.0, 0.8], loss=["plastic", "viscous", "viscous"]
+    )
+    assert to_the_bit(partial(spheres.rebound, 2.0, **groups)) == to_the_bit(lambda: wanted)

@@ -254,7 +254,7 @@ def _most_after(impacts: Impacts, body: Body, before: State) -> Array:
 
 def _restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> Array:
     """Restitution: that of the pair, or what its material has at the speed of each impact."""
-    e, radius = pair.restitution, bodies.radius_of_two(body.radius, other.radius)
+    e = pair.restitution
     for name, law in RESTITUTION_BY.items():
         value = getattr(pair, name)
         has = ~np.isnan(value)
@@ -262,6 +262,7 @@ def _restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> A
             # All impacts are computed, so that a refusal has the index of its row: with a small
             # number for each quantity where there is no such law, or nothing approaches.
             meets = has & (v2 > 0) & np.isfinite(v2)
+            radius = bodies.radius_of_two(body.radius, other.radius)
             quantities = v2, value, m2, pair.effective_modulus, radius
             of_meeting = law(*(np.where(meets, quantity, 1e-3) for quantity in quantities))
             e = np.where(has, of_meeting, e)

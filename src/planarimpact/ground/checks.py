@@ -109,7 +109,8 @@ def checked(
         passes = (numbers > low if open_low else numbers >= low) & (numbers <= high)
     # A number that is infinite only as float64 was too large.
     passes &= np.isfinite(numbers) | (np.isinf(array) & infinite)
-    passes |= np.isnan(numbers) & missing
+    if missing:
+        passes |= np.isnan(numbers)
     if not passes.all():
         index = tuple(int(i) for i in np.argwhere(~passes)[0])
         where = f"[{', '.join(map(str, index))}]" if index else ""
