@@ -64,10 +64,10 @@ from planarimpact.bodies.quantities import (
     Material,
     Motion,
     OutOfRange,
-    fields,
     in_range,
     quietly,
 )
+from planarimpact.bodies.quantities import fields as fields
 from planarimpact.bodies.restitution import (
     LEAST_RESTITUTION,
     peak_force,

@@ -6,7 +6,6 @@ from the lever arm of friction.
 """
 
 from planarimpact import bodies
-from planarimpact.bodies.quantities import fields
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import ArrayLike
 
@@ -64,7 +63,7 @@ def overlap(
     >>> round(overlap(rubber, 0.005, 1100, 2.0), 3)
     0.043
     """
-    young = fields("material", material, bodies.Material)["material.young_modulus"]
+    young = bodies.fields("material", material, bodies.Material)["material.young_modulus"]
     given = {"radius": radius, "density": density, "speed": speed, "young_modulus": young}
     # Of numbers in this range all products are numbers, too.
     r, rho, v, _ = (

@@ -13,8 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.bodies import Motion
-from planarimpact.bodies.quantities import fields
+from planarimpact.bodies import Motion, fields
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive

@@ -51,10 +51,8 @@ def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: Array
     >>> covers(3.5, [1.0, 1.21, 2.0], 0.8).tolist()
     [True, True, False]
     """
-    beta, zeta2 = (
-        checks.real("mass_ratio", mass_ratio),
-        checks.real("stiffness_ratio", stiffness_ratio),
-    )
+    beta = checks.real("mass_ratio", mass_ratio)
+    zeta2 = checks.real("stiffness_ratio", stiffness_ratio)
     e = checks.real("restitution", restitution)
     with np.errstate(over="ignore"):  # of a stiffness ratio near 0
         ratio = beta / zeta2
