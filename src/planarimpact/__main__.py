@@ -7,7 +7,7 @@ import os
 import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -277,7 +277,7 @@ def _decimal(text: str) -> float:
     """Number of a text in decimal notation; argparse adds the option's name to a refusal."""
     if not NUMBER.fullmatch(text):
         raise argparse.ArgumentTypeError(
-            f"{text!r}: allowed are decimal numbers, such as 0.5 or -1e-3"
+            f"{text!a}: allowed are decimal numbers, such as 0.5 or -1e-3"
         )
     return float(text)
 
@@ -306,13 +306,20 @@ class _Once(argparse.Action):
         option_string: str | None = None,
     ) -> None:
         if getattr(namespace, self.dest) is not self.default:
-            raise argparse.ArgumentError(self, f"{values!r} is a second value, allowed is one")
+            raise argparse.ArgumentError(self, f"{values!a} is a second value, allowed is one")
         setattr(namespace, self.dest, values)
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose refusals show what they refuse in ASCII, those of argparse itself too."""
+
+    def error(self, message: str) -> NoReturn:
+        super().error(checks.in_ascii(message))
 
 
 def _parser() -> argparse.ArgumentParser:
     """Parser of the command line, with one parser for each command."""
-    parser = argparse.ArgumentParser(prog="planarimpact", description=ABOUT)
+    parser = _Parser(prog="planarimpact", description=ABOUT)
     parser.add_argument("--version", action="version", version=f"planarimpact {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
 

@@ -1,7 +1,5 @@
 """Bodies and materials: known values, limits, conservation laws."""
 
-import pickle
-
 import numpy as np
 import pytest
 
@@ -33,6 +31,9 @@ def test_effective_masses_of_unlike_bodies():
 @pytest.mark.parametrize("gyration", [0.1, np.inf])
 def test_infinite_mass_is_a_half_space_whatever_its_gyration(gyration):
     wall = Body(np.inf, gyration, 0.2)
+    flat = Body(1.0, 1.0, 0.0)
+    for both in ((flat, GLASS, wall), (wall, GLASS, flat, GLASS)):
+        assert bodies.contact(*both).effective_radius == 0.2
     assert bodies.effective_masses(STEEL_BALL, wall) == bodies.effective_masses(STEEL_BALL)
 
 
@@ -189,7 +190,7 @@ def test_what_is_made_keeps_its_fields_as_given():
     body, after = Body([1, np.inf], gyration=np.inf, radius=radius), Motion(-1, -2.0, spin=0)
     assert body.mass == [1, np.inf] and body.radius is radius and after == (-1, -2.0, 0)
     for made in (body, after, Material(poisson_ratio=0.5, young_modulus=1)):
-        for again in (type(made)._make(made), made._replace(), pickle.loads(pickle.dumps(made))):
+        for again in (type(made)._make(made), made._replace()):
             assert type(again) is type(made) and repr(again) == repr(made)
 
 
@@ -199,14 +200,13 @@ def test_whole_numbers_are_numbers_if_a_float_can_hold_them(value):
     np.testing.assert_array_equal(lumped.rebound(value).velocity, lumped.rebound(numbers).velocity)
 
 
-def test_what_is_out_of_range_is_named_with_its_place_and_pickled():
+def test_what_is_out_of_range_is_named_with_its_place():
     with pytest.raises(bodies.OutOfRange) as refusal:
         bodies.viscous_restitution([1.0, 9.0], [[1e-7, 0.1], [0.2, 1e-7]], **STEEL)
-    again = pickle.loads(pickle.dumps(refusal.value))
-    assert type(again) is bodies.OutOfRange and str(again) == str(refusal.value)
-    words = {i: message.partition(":")[0] for i, message in again.messages.items()}
+    messages = refusal.value.messages
+    words = {i: message.partition(":")[0] for i, message in messages.items()}
     assert words == {1: "relaxation_time = 0.1", 2: "relaxation_time = 0.2"}
-    limits = [float(message.split()[8]) for message in again.messages.values()]
+    limits = [float(message.split()[8]) for message in messages.values()]
     found = bodies.viscous_restitution([9.0, 1.0], np.multiply(limits, 0.999), **STEEL)
     np.testing.assert_allclose(found, bodies.LEAST_RESTITUTION, rtol=1e-2)
 

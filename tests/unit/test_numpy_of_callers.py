@@ -1,11 +1,28 @@
-"""The error state of the caller changes no answer, nor does an empty mask."""
+"""What callers do changes no answer: with NumPy's error state, an empty mask, pickle and copies."""
 
-from functools import partial
+import copy
+import pickle
+from functools import partial, update_wrapper
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from planarimpact import bodies, continuum, lumped, models, noncollinear
+from planarimpact import (
+    ConvergenceError,
+    InputError,
+    Pair,
+    bodies,
+    collide,
+    collision,
+    continuum,
+    fit,
+    lumped,
+    models,
+    noncollinear,
+    scene,
+    spheres,
+)
 from planarimpact.bodies import Body, Motion
 from planarimpact.continuum import annuli, cattaneo_mindlin, micro_slip
 from planarimpact.models import laws
@@ -66,3 +83,66 @@ def test_an_empty_mask_is_none():
     whole = np.ma.array([0.5, 0.75], mask=[False, False])
     assert repr(lumped.rebound(whole)) == repr(lumped.rebound(whole.data))
     assert repr(lumped.rebound([whole, whole])) == repr(lumped.rebound([whole.data] * 2))
+
+
+STEEL, BALL = bodies.Material(207e9, 0.3), Body(0.1, 4e-3, 0.01)
+PAIR = Pair(STEEL, friction=0.3, restitution=[0.8, 0.9], loss="plastic")
+MANY = PAIR[np.zeros(999, int)]
+
+
+def half(x, mass_ratio, stiffness_ratio, restitution):
+    return np.maximum(x - (1 + restitution) * mass_ratio, -0.5 * x)
+
+
+decorated = laws.of_velocity(half)
+update_wrapper(decorated, half).__qualname__ = "decorated"  # as by its `@`
+
+
+OBJECTS = [
+    *(call() for call in CALLS),
+    *(collide(pair, [0, 0, 1], BALL, [1, 0, -3.0], [0, 2.0, 0]) for pair in (PAIR[0], PAIR, MANY)),
+    *(STEEL, BALL, PAIR, scene.Solver(0.1, "viscous"), bodies.contact(BALL, STEEL)),
+    *(fit.fit("yade", incidence_max=2.0), *fit.CODES.values(), *collision.presets().values()),
+    *(*models.MODELS.values(), models.Model("half", laws.of_velocity(half)), decorated),
+    *(InputError("refused"), bodies.OutOfRange({1: "too large"}), ConvergenceError("given up")),
+    *[continuum.Unsolved("needs more steps", np.array([1, 2]))],
+]
+
+
+def pickled(thing):
+    return pickle.loads(pickle.dumps(thing))
+
+
+def contents(thing):
+    """All that something holds, as pickle takes it apart."""
+    if isinstance(thing, dict):
+        return {key: contents(value) for key, value in thing.items()}
+    if isinstance(thing, list | tuple):
+        return [type(thing).__name__, *map(contents, thing)]
+    ours = type(thing).__module__.startswith(("planarimpact", "functools"))
+    return contents(thing.__reduce_ex__(4)) if ours else thing
+
+
+@pytest.mark.parametrize("again", [pickled, copy.deepcopy, copy.copy])
+@pytest.mark.parametrize("thing", OBJECTS, ids=lambda thing: type(thing).__name__)
+def test_what_is_given_survives_pickle_and_copies(thing, again):
+    found = again(thing)
+    np.testing.assert_equal(contents(found), contents(thing))
+    if isinstance(thing, collision.Collision):  # still lazy, and not much larger than its data
+        data = sum(getattr(value, "nbytes", 0) for value in vars(thing).values())
+        assert "model_form" not in vars(found) and len(pickle.dumps(thing)) < 1.6 * data + 2000
+        np.testing.assert_array_equal(found.model_form, again(thing).model_form)
+
+
+@pytest.mark.parametrize("kind", ["object", "string", "category", "Sparse[object]"])
+def test_losses_may_be_a_column_of_pandas(kind):
+    """In which one is missing where nothing is lost."""
+    groups = {
+        "restitution": [0.8, 1.0, 0.8],
+        "loss": pd.Series(["plastic", None, "viscous"], dtype=kind),
+    }
+    assert Pair(STEEL, friction=0.3, **groups).plastic.tolist() == [True, False, False]
+    wanted = spheres.rebound(
+        2.0, restitution=[0.8, 1.0, 0.8], loss=["plastic", "viscous", "viscous"]
+    )
+    assert to_the_bit(partial(spheres.rebound, 2.0, **groups)) == to_the_bit(lambda: wanted)

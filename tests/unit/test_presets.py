@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from planarimpact import collision, export
+from planarimpact.spheres.table import shipped
 
 DATA = Path(__file__).parents[2] / "data"
 PRESETS = collision.presets()
@@ -24,6 +25,12 @@ def test_beads_are_those_of_the_chart():
         assert given.friction == float(chart[name]["friction [1]"])
     assert glass.restitution == float(chart["soda-lime glass"]["restitution [1]"])
     assert float(chart["chrome steel"]["restitution [1]"]) == 1.0
+
+
+def test_a_caller_cannot_change_what_others_get():
+    assert collision.presets().pop("superball") and list(collision.presets()) == list(PRESETS)
+    parts = [part for panel in shipped().panels.values() for part in panel[1:]]
+    assert not any(values.flags.writeable for values in (shipped().limits, *parts))
 
 
 def test_balls_are_those_of_their_sources():

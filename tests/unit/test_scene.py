@@ -138,6 +138,12 @@ def test_the_result_has_the_table_and_then_what_follows():
     assert len(empty) == 0 and list(empty) == list(after)
 
 
+def test_columns_may_be_sparse():
+    dense = table(STEEL, PLANE)
+    sparse = dense.assign(**{name: pd.arrays.SparseArray(dense[name]) for name in dense})
+    assert scene.solve(sparse).iloc[0].tolist() == scene.solve(dense).iloc[0].tolist()
+
+
 # States in a plane, and walls.
 
 

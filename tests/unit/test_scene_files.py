@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from planarimpact import InputError, scene
+from planarimpact import scene
 from planarimpact.__main__ import main
 from planarimpact.collision import TOLERANCE
 from planarimpact.scene import files
@@ -209,14 +209,6 @@ def test_cells_of_parquet_keep_their_types_also_where_some_are_missing(tmp_path,
 # Nothing is half-written.
 
 
-def test_half_a_file_is_named(table):
-    packed, out = table.with_name("half.csv.gz"), table.with_name("out.csv")
-    packed.write_bytes(gzip.compress(table.read_bytes())[:-9])
-    with pytest.raises(InputError, match="half.csv.gz: "):
-        files.solve(packed, out)
-    assert not out.exists()
-
-
 def test_a_bad_row_leaves_nothing_behind_or_is_left_out(table, capsys, small_parts):
     """Also where parts before it are solved already. An earlier result survives."""
     rows = impacts()
@@ -235,15 +227,6 @@ def test_a_bad_row_leaves_nothing_behind_or_is_left_out(table, capsys, small_par
     impacts().to_csv(table, index=False)
     files.solve(table, out, skip_bad=True)
     assert bad.read_text() == "row,problem\n"  # of the result that is there
-
-
-def test_a_table_is_not_replaced_by_its_result(table):
-    linked, text = table.with_name("linked.csv"), table.read_text()
-    linked.hardlink_to(table)
-    for out in (table, linked):
-        with pytest.raises(InputError, match="it is the table that is read"):
-            files.solve(table, out)
-    assert table.read_text() == text
 
 
 # The command line.

@@ -4,7 +4,6 @@ import os
 
 import pytest
 
-from planarimpact.ground.checks import InputError
 from planarimpact.ground.files import written
 
 
@@ -46,13 +45,3 @@ def test_an_error_leaves_what_was_there(path, error):
         partial.write_text("half")
         raise error
     assert path.read_text() == "earlier" and os.listdir(path.parent) == ["words.txt"]
-
-
-def test_what_is_no_place_for_a_file_is_refused(path):
-    for place, words in [
-        (path.parent, "no regular file"),
-        (os.devnull, "no regular file"),
-        (path / "words", "there is no folder"),
-    ]:
-        with pytest.raises(InputError, match=words), written(place):
-            pytest.fail("it writes")

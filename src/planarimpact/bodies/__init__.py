@@ -57,16 +57,17 @@ from planarimpact.bodies.materials import (
     normal_frequency,
     stiffness_ratio,
 )
+from planarimpact.bodies.materials import radius_of_two as radius_of_two
 from planarimpact.bodies.quantities import (
     HALF_SPACE,
     Body,
     Material,
     Motion,
     OutOfRange,
-    fields,
     in_range,
     quietly,
 )
+from planarimpact.bodies.quantities import fields as fields
 from planarimpact.bodies.restitution import (
     LEAST_RESTITUTION,
     peak_force,
@@ -159,8 +160,9 @@ def contact(
     _, mass = effective_masses(body, other)
     if other_material is None and np.isfinite(other.mass).any():
         raise checks.InputError("other_material: missing, as the other body has a finite mass")
-    curved = np.asarray(other.radius) > 0
-    radius = effective_radius(body.radius, np.where(curved, other.radius, np.inf))
+    radius = radius_of_two(body.radius, other.radius)
+    if np.isnan(radius).any():
+        raise checks.InputError("body.radius = 0, other.radius = 0: one of the two must be above 0")
     return Contact(mass, effective_modulus(material, other_material), radius)
 
 

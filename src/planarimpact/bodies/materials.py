@@ -17,7 +17,7 @@ from planarimpact.bodies.quantities import (
     quietly,
 )
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.checks import positive
 
 
@@ -122,8 +122,15 @@ def effective_radius(radius: ArrayLike, other: ArrayLike = np.inf) -> Array:
     first, second = checks.broadcast(
         radius=positive("radius", radius), other=positive_or_infinite("other", other)
     )
+    return radius_of_two(first, second)
+
+
+def radius_of_two(*radii: Numbers) -> Array:
+    """Effective radius of two surfaces, unchecked; a radius of 0 is flat, as is an infinite one."""
+    first, second = (np.where(radius > 0, radius, np.inf) for radius in map(np.asarray, radii))
     smaller, larger = np.minimum(first, second), np.maximum(first, second)
-    return smaller / (1 + smaller / larger)
+    with np.errstate(invalid="ignore"):  # two flat surfaces: NaN
+        return smaller / (1 + smaller / larger)
 
 
 @quietly

@@ -115,6 +115,6 @@ def fields(
     """Checked fields of a `kind`, keyed by the names that a refusal shows."""
     if not isinstance(value, kind):
         signature = f"{kind.__name__}({', '.join(kind._fields)})"
-        raise InputError(f"{name} = {value!r}: allowed are {signature} tuples")
+        raise InputError(f"{name} = {checks.brief(value)}: allowed are {signature} tuples")
     named = zip(_RULES[kind].items(), value, strict=True)
     return {f"{name}.{field}": rule(f"{name}.{field}", v) for (field, rule), v in named}

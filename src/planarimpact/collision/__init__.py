@@ -82,7 +82,8 @@ class Collision:
     error_bound: Array
     regime: Any
     plastic: Booleans
-    _model_form: Callable[[], Array] = field(repr=False)
+    # Gives it, or has the impact alone solved as an array; as partial functions can be pickled.
+    _model_form: "Callable[[], Array | Collision]" = field(repr=False)
 
     @property
     def loss(self) -> NDArray[np.str_]:
@@ -97,7 +98,8 @@ class Collision:
         Without a sign; no tolerance makes it smaller. It is 0 where e = 1, NaN without an impact or
         where nothing is known. It takes as long as `collide` when it is first asked for.
         """
-        return self._model_form()
+        found = self._model_form()
+        return found.model_form if isinstance(found, Collision) else found
 
 
 def collide(
@@ -175,8 +177,7 @@ def collide(
     fields = one_impact.collide(pair, body, other, copies, tolerance)
     if not fields:
         return _collide_arrays(pair, body, other, vectors, tolerance)
-    in_arrays = partial(_collide_arrays, pair, body, other, copies, tolerance)
-    return Collision(*[*fields, lambda: in_arrays().model_form])
+    return Collision(*[*fields, partial(_collide_arrays, pair, body, other, copies, tolerance)])
 
 
 @checks.default_errors
@@ -250,17 +251,10 @@ def _collision(
     given: Impacts, met: Impacts, approach: Integers, answer: Answers, shape: tuple[int, ...]
 ) -> Collision:
     """The result: states after the impacts, and those that stay as they are."""
-
-    def whole(values: Any, before: Any) -> Any:
-        """Values of impacts, and those before where bodies do not approach, in the given shape."""
-        if approach.size < given.v2.size:
-            everywhere = np.empty((*values.shape[:-1], given.v2.size), values.dtype)
-            everywhere[:] = before
-            everywhere[..., approach] = values
-            values = everywhere
-        return values.T.reshape((*shape, *values.shape[:-1]))[()]
-
+    whole = partial(_whole, approach, given.v2.size, shape)
     state, other_state, impulse = after(met, answer.change)
+    without_vectors = [None] * 6 + [*met[6:]]  # in less memory, also where the result is pickled
+    form = partial(_form, whole, Impacts._make(without_vectors), answer.place, answer.velocity)
     regime = whole(answer.regime, Regime.NO_IMPACT)
     return Collision(
         velocity=whole(state.velocity, given.before.velocity),
@@ -273,5 +267,20 @@ def _collision(
         error_bound=whole(answer.error, np.nan),
         regime=regime if shape else Regime(int(regime)),
         plastic=whole(met.plastic, False),
-        _model_form=lambda: whole(model_forms(met, answer), np.nan),
+        _model_form=form,
     )
+
+
+def _whole(approach: Integers, count: int, shape: tuple[int, ...], values: Any, before: Any) -> Any:
+    """Values of impacts, and those before where bodies do not approach, in the given shape."""
+    if approach.size < count:
+        everywhere = np.empty((*values.shape[:-1], count), values.dtype)
+        everywhere[:] = before
+        everywhere[..., approach] = values
+        values = everywhere
+    return values.T.reshape((*shape, *values.shape[:-1]))[()]
+
+
+def _form(whole: Callable[..., Array], met: Impacts, place: Integers, velocity: Array) -> Array:
+    """Model form of impacts, by rung and velocity at separation."""
+    return whole(model_forms(met, place, velocity), np.nan)

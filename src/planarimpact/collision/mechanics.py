@@ -122,14 +122,6 @@ def impacts(
         )
 
 
-def effective_radius(body: Body, other: Body) -> Array:
-    """Effective radius of two bodies [m]; a radius of 0, as of `bodies.HALF_SPACE`, is flat."""
-    radius, other_radius = (np.where(b.radius > 0, b.radius, np.inf) for b in (body, other))
-    smaller, larger = np.minimum(radius, other_radius), np.maximum(radius, other_radius)
-    with np.errstate(invalid="ignore"):  # two flat bodies, which a law of restitution refuses
-        return smaller / (1 + smaller / larger)
-
-
 def slides_throughout(impacts: Impacts) -> Booleans:
     """Whether each impact slides from first to last."""
     with np.errstate(over="ignore"):  # friction may stop any finite velocity
@@ -270,7 +262,8 @@ def _restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> A
             # All impacts are computed, so that a refusal has the index of its row: with a small
             # number for each quantity where there is no such law, or nothing approaches.
             meets = has & (v2 > 0) & np.isfinite(v2)
-            quantities = v2, value, m2, pair.effective_modulus, effective_radius(body, other)
+            radius = bodies.radius_of_two(body.radius, other.radius)
+            quantities = v2, value, m2, pair.effective_modulus, radius
             of_meeting = law(*(np.where(meets, quantity, 1e-3) for quantity in quantities))
             e = np.where(has, of_meeting, e)
     return e

@@ -11,26 +11,26 @@ from planarimpact import continuum, spheres
 from planarimpact.collision import rungs
 from planarimpact.collision.mechanics import Impacts
 from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array
+from planarimpact.ground.arrays import Array, Integers
 
 # Tolerance of the continuum with the other loss, mu v2(0) and v1(0): two digits of the difference
 # suffice.
 TOLERANCE = 1e-2
 
 
-def model_forms(impacts: Impacts, answers: rungs.Answers) -> Array:
-    """How far the velocity would move with the other loss [m/s], NaN where that is not known."""
+def model_forms(impacts: Impacts, place: Integers, velocity: Array) -> Array:
+    """How far the velocity of `Answers` would move with the other loss [m/s], NaN if not known."""
     form, unit = np.zeros(impacts.v1.size), impacts.unit
-    viscous = (answers.place == rungs.SLIDING) & (impacts.restitution < 1) & ~impacts.plastic
+    viscous = (place == rungs.SLIDING) & (impacts.restitution < 1) & ~impacts.plastic
     form[viscous] = np.nan
     rows = np.flatnonzero(viscous & (impacts.restitution >= continuum.LEAST_RESTITUTION))
     difference = _of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
     form[rows] = np.abs(difference) * unit[rows]
     losses = np.array([rung.loss or "" for rung in rungs.RUNGS])
     for loss, other in zip(continuum.LOSSES, reversed(continuum.LOSSES), strict=True):
-        rows = np.flatnonzero((losses == loss)[answers.place])
-        velocity = _velocity(other, impacts.incidence_of(rows), impacts.groups_of(rows))
-        form[rows] = np.abs(velocity * unit[rows] - answers.velocity[rows])
+        rows = np.flatnonzero((losses == loss)[place])
+        moved = _velocity(other, impacts.incidence_of(rows), impacts.groups_of(rows))
+        form[rows] = np.abs(moved * unit[rows] - velocity[rows])
     return form
 
 

@@ -41,7 +41,7 @@ class Pair:
         [Pa], of materials that yield, see `bodies.plastic_restitution`: e follows from the speed.
     loss : str or array_like of str, optional
         What takes the energy where `restitution` is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield).
+        "plastic" (metals that yield). An empty text, None or NaN in an array says none.
     stiffness_ratio : array_like, optional
         zeta^2, normal over tangential stiffness, where there are no materials.
     effective_modulus : array_like, optional
@@ -112,7 +112,7 @@ what takes the energy: viscous, plastic
         }
         stiffness = _stiffness(materials, stiffness_ratio, effective_modulus)
         mu = checks.not_negative("friction", friction)
-        named = {"friction": mu, **stiffness, **laws, "loss": _loss_codes(loss)}
+        named = {"friction": mu, **stiffness, **laws, "loss": checks.losses(loss, LOSSES)}
         arrays = dict(zip(named, checks.broadcast(**named), strict=True))
         codes = arrays.pop("loss")
         _refuse_other_laws(arrays)
@@ -180,12 +180,8 @@ def _law(
     name: str, value: ArrayLike | None, allowed: str, low: float, high: float = LARGEST
 ) -> Array:
     """Numbers of one law, NaN where a pair does not have it."""
-    if value is None:
-        return np.array(np.nan)
-    numbers = np.asarray(value)
-    known = numbers.dtype.kind != "f" or ~np.isnan(numbers)
-    filled = np.where(known, value, low) if numbers.dtype.kind == "f" else value
-    return np.where(known, checks.checked(name, filled, f"finite {allowed}", low, high), np.nan)
+    given = np.nan if value is None else value
+    return checks.checked(name, given, f"finite {allowed}", low, high, missing=True)
 
 
 def _stiffness(
@@ -210,18 +206,6 @@ def _stiffness(
     }
 
 
-def _loss_codes(loss: str | ArrayLike | None) -> Array:
-    """Place of each loss in `LOSSES`, -1 where none is said."""
-    names = np.asarray("" if loss is None else loss)
-    codes = np.full(names.shape, -1.0)
-    for code, name in enumerate(LOSSES):
-        codes[names == name] = code
-    unknown = names[~np.isin(names, ["", *LOSSES])]
-    if unknown.size:
-        checks.loss(unknown.tolist()[0], LOSSES)
-    return codes
-
-
 def _refuse_other_laws(arrays: dict[str, Array]) -> None:
     """Refuse pairs that say how much energy is lost in two ways, or in none."""
     said = np.sum([~np.isnan(arrays[name]) for name in RESTITUTION_FROM], axis=0)
@@ -236,10 +220,10 @@ def _refuse_loss(arrays: dict[str, Array], codes: Array) -> None:
     restitution = arrays["restitution"]
     missing = (restitution < 1) & (codes < 0)
     if missing.any():
-        checks.lossless(float(restitution[missing].flat[0]), LOSSES)
+        checks.lossless(np.where(missing, restitution, 1.0), LOSSES)
     for name, loss in RESTITUTION_FROM.items():
         if loss and (~np.isnan(arrays[name]) & (codes >= 0) & (codes != LOSSES.index(loss))).any():
             (other,) = set(LOSSES) - {loss}
             raise InputError(
-                f"loss = {other!r}: allowed beside {name} is {loss}; it may be left out"
+                f"loss = '{other}': allowed beside {name} is {loss}; it may be left out"
             )

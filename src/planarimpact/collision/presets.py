@@ -1,7 +1,6 @@
 """Presets: bodies with their pairs of materials, and the sources of their numbers."""
 
 import tomllib
-from functools import cache
 from importlib import resources
 from typing import Any, NamedTuple
 
@@ -32,7 +31,6 @@ class Preset(NamedTuple):
     beware: str
 
 
-@cache
 def presets() -> dict[str, Preset]:
     """Presets by name.
 

@@ -92,10 +92,12 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
     ...
     planarimpact.InputError: ball.py: allowed are names that end in .mjs or .js
     """
+    if not isinstance(path, (str, Path)):
+        raise InputError(f"path = {checks.brief(path)}: allowed is the name of a file")
     file = Path(path)
     _refuse_name(file, language)
-    if tolerance not in TABLES:
-        allowed = " or ".join(f"{error:g}" for error in TABLES)
+    allowed = " or ".join(f"{error:g}" for error in TABLES)
+    if checks.number("tolerance", tolerance, allowed) not in TABLES:
         raise InputError(f"tolerance = {checks.brief(tolerance)}: allowed is {allowed}")
     code = _code(TABLES[tolerance], file, language)
     with files.written(path) as partial:
@@ -104,14 +106,14 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
 
 def _refuse_name(file: Path, language: str) -> None:
     """Refuse a language, an ending of another one, or a name that functions in C cannot have."""
-    if language not in LANGUAGES:
+    if not isinstance(language, str) or language not in LANGUAGES:
         raise InputError(f"language = {checks.brief(language)}: allowed are {', '.join(LANGUAGES)}")
-    endings = LANGUAGES[language]
+    endings, name = LANGUAGES[language], file.parent / checks.in_ascii(file.name)
     if file.suffix.lower() not in endings:
-        raise InputError(f"{file}: allowed are names that end in {' or '.join(endings)}")
+        raise InputError(f"{name}: allowed are names that end in {' or '.join(endings)}")
     if language == "c" and not IDENTIFIER.fullmatch(file.stem):
         raise InputError(
-            f"{file}: allowed are names of letters from A to Z, digits and underscores, a letter "
+            f"{name}: allowed are names of letters from A to Z, digits and underscores, a letter "
             "first, as the functions have this name"
         )
 

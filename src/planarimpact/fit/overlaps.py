@@ -63,11 +63,12 @@ def overlap(
     >>> round(overlap(rubber, 0.005, 1100, 2.0), 3)
     0.043
     """
-    given = {"radius": radius, "density": density, "speed": speed}
+    young = bodies.fields("material", material, bodies.Material)["material.young_modulus"]
+    given = {"radius": radius, "density": density, "speed": speed, "young_modulus": young}
     # Of numbers in this range all products are numbers, too.
     r, rho, v, _ = (
         checks.number(name, value, "numbers from 1e-30 to 1e30", 1e-30, 1e30)
-        for name, value in (given | {"young_modulus": material.young_modulus}).items()
+        for name, value in given.items()
     )
     sphere = bodies.solid_sphere(r, rho)
     mass, modulus, effective = bodies.contact(sphere, material, sphere, material)

@@ -4,9 +4,9 @@ import math
 import reprlib
 from collections.abc import Iterable, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 
@@ -25,6 +25,8 @@ MOST = 10_000_000
 # caller has set by np.seterr or np.errstate, and an unexpected invalid operation still warns.
 default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 
+# Texts of a loss that is not said, and of missing values.
+NO_LOSS = "", "None", "nan", "<NA>", "NaT"
 _NUMBERS = int, float, np.integer, np.floating
 
 _BRIEF = reprlib.Repr()
@@ -52,7 +54,12 @@ def brief(value: object) -> str:
     >>> brief([1.5, "x", 3, 4, 5])
     "[1.5, 'x', 3, 4, ...]"
     """
-    return _BRIEF.repr(value).replace("\n", " ")
+    return in_ascii(_BRIEF.repr(value))
+
+
+def in_ascii(text: str) -> str:
+    """A text in one line, with the codes of other letters and signs: some look like those here."""
+    return text.replace("\n", " ").encode("ascii", "backslashreplace").decode()
 
 
 def checked(
@@ -63,11 +70,13 @@ def checked(
     high: float = math.inf,
     open_low: bool = False,
     infinite: bool = False,
+    missing: bool = False,
 ) -> Array:
     """Return real numbers as float64 of the same shape, or refuse them and say what is allowed.
 
     The bounds are inclusive, `low` exclusive with `open_low`; an infinity passes with `infinite`
-    only, NaN never. Booleans, strings, bytes, complex numbers and masked entries are refused.
+    only, NaN with `missing` only. Booleans, strings, bytes, complex numbers and masked entries are
+    refused.
 
     Examples
     --------
@@ -85,10 +94,14 @@ def checked(
         )
     try:
         array = np.asarray(value)
+        if array.dtype == object and set(map(type, array.flat)) <= {int, float}:
+            array = array.astype(np.float64)  # NumPy has no integers as large as Python has
+    except OverflowError:
+        raise InputError(
+            f"{name}: an integer is beyond the range of numbers, allowed are {allowed}"
+        ) from None
     except ValueError:
         raise InputError(f"{name} = {brief(value)}: not a regular array of numbers") from None
-    if array.dtype == object and set(map(type, array.flat)) <= {int, float}:
-        array = _large_integers(name, array, allowed)
     if array.dtype.kind not in "iuf" or _has_booleans_or_bytes(value):
         raise InputError(f"{name} = {brief(value)}: allowed are {allowed}, as real numbers")
     with np.errstate(invalid="ignore", over="ignore", under="ignore"):
@@ -96,10 +109,12 @@ def checked(
         passes = (numbers > low if open_low else numbers >= low) & (numbers <= high)
     # A number that is infinite only as float64 was too large.
     passes &= np.isfinite(numbers) | (np.isinf(array) & infinite)
+    if missing:
+        passes |= np.isnan(numbers)
     if not passes.all():
         index = tuple(int(i) for i in np.argwhere(~passes)[0])
         where = f"[{', '.join(map(str, index))}]" if index else ""
-        raise InputError(f"{name}{where} = {float(numbers[index])!r}: allowed are {allowed}")
+        raise InputError(f"{name}{where} = {float(numbers[index])}: allowed are {allowed}")
     return numbers
 
 
@@ -108,17 +123,7 @@ def _is_masked(value: object) -> bool:
     if isinstance(value, (list, tuple)):
         nested = list, tuple, np.ma.MaskedArray
         return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
-    return bool(np.ma.is_masked(value))
-
-
-def _large_integers(name: str, array: NDArray[np.object_], allowed: str) -> Array:
-    """Python's numbers as float64: NumPy has no integers as large as Python has."""
-    try:
-        return array.astype(np.float64)
-    except OverflowError:
-        raise InputError(
-            f"{name}: an integer is beyond the range of numbers, allowed are {allowed}"
-        ) from None
+    return isinstance(value, np.ma.MaskedArray) and bool(np.ma.is_masked(value))
 
 
 def _has_booleans_or_bytes(value: object) -> bool:
@@ -135,6 +140,13 @@ def _has_booleans_or_bytes(value: object) -> bool:
 finite = partial(checked, allowed="finite numbers")
 not_negative = partial(checked, allowed="finite numbers from 0", low=0)
 positive = partial(checked, allowed="finite numbers above 0", low=0, open_low=True)
+
+
+def real(name: str, value: ArrayLike) -> Array:
+    """Check that numbers are real, NaN and infinity too; those of an array of float64 are."""
+    if type(value) is np.ndarray and value.dtype == np.float64:
+        return value
+    return checked(name, value, "real numbers", infinite=True, missing=True)
 
 
 def incidence(value: ArrayLike) -> Array:
@@ -173,6 +185,30 @@ def loss(value: str, allowed: tuple[str, ...]) -> str:
     if isinstance(value, str) and value in allowed:
         return value
     raise InputError(f"loss = {brief(value)}: allowed are {', '.join(allowed)}")
+
+
+def losses(value: Any, allowed: tuple[str, ...]) -> Array:
+    """Check names of losses, one or an array: the place of each in `allowed`, -1 where it has none.
+
+    None is said by an empty text, None, NaN or what pandas has where a value is missing.
+
+    Examples
+    --------
+    >>> losses(["plastic", None, "viscous"], ("viscous", "plastic")).tolist()
+    [1.0, -1.0, 0.0]
+    """
+    if _is_masked(value):
+        loss(value, allowed)
+    words = value
+    if not (isinstance(value, np.ndarray) and value.dtype.kind == "U"):  # which needs no time
+        cells = np.asarray(value, dtype=object)
+        words = np.array([str(cell) for cell in cells.flat], dtype=str).reshape(cells.shape)
+    codes = np.where(np.isin(words, NO_LOSS), -1.0, -2.0)
+    for code, name in enumerate(allowed):
+        codes[words == name] = code
+    if (codes < -1).any():
+        loss(words[codes < -1].tolist()[0], allowed)
+    return codes
 
 
 def lossless(value: ArrayLike, choices: Iterable[str], by: str = "loss") -> None:

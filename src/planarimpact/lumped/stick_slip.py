@@ -338,7 +338,7 @@ def _skip(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] |
         phases = 2 * rate[0] * stick.eta[0] / np.pi
         if phases > MOST_TRACED:
             raise InputError(
-                f"stiffness_ratio = {float(zeta2[0])!r}: some {phases:.2g} phases in one contact; "
+                f"stiffness_ratio = {float(zeta2[0])}: some {phases:.2g} phases in one contact; "
                 f"allowed are {MOST_TRACED} where each one is asked for"
             )
         return

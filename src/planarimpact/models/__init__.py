@@ -14,7 +14,7 @@ model of your own.
 """
 
 from collections.abc import Callable, Mapping
-from functools import partial, wraps
+from functools import partial
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -68,21 +68,23 @@ class Model(NamedTuple):
     loss: str = ""
 
 
-def get(name: str) -> Model:
-    """The entry of a model. Arguments and errors: `planarimpact.models`.
+def get(name: str | Model) -> Model:
+    """The entry of a model, by its name or itself. Arguments and errors: `planarimpact.models`.
 
     Examples
     --------
     >>> get("lumped").cost
     'phases'
     """
+    if isinstance(name, Model):
+        return name
     if not isinstance(name, str) or name not in MODELS:
         raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
     return MODELS[name]
 
 
 def rebound(
-    model: str,
+    model: str | Model,
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
     stiffness_ratio: ArrayLike = 1.21,
@@ -107,7 +109,7 @@ lumped.viscous
     return chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
 
 
-def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
+def refuse_unknown(model: str | Model, settings: Mapping[str, object]) -> None:
     """Refuse settings that a model does not have; the message names the first one.
 
     Arguments and errors: `planarimpact.models`.
@@ -119,14 +121,16 @@ def refuse_unknown(model: Model, settings: Mapping[str, object]) -> None:
     ...
     planarimpact.InputError: steps = 4: lumped has no settings
     """
+    model = get(model)
     for key, value in settings.items():
         if key not in model.settings:
             known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
-            raise checks.InputError(f"{key} = {checks.brief(value)}: {model.name} has {known}")
+            said = checks.in_ascii(f"{key} = {checks.brief(value)}: {model.name}")
+            raise checks.InputError(f"{said} has {known}")
 
 
 def input_spread(
-    model: str,
+    model: str | Model,
     incidence: ArrayLike,
     mass_ratio: float = 3.5,
     stiffness_ratio: float = 1.21,
@@ -150,7 +154,7 @@ def input_spread(
     (0.0, 0.7)
     """
     x = checks.incidence(incidence)
-    e = float(checks.restitution(restitution))
+    e = checks.number("restitution", restitution, "numbers from 0 to 1", 0, 1)
     low = get(model).restitution[0]
 
     def velocity(ratio: float, e: float) -> Array:
@@ -166,7 +170,9 @@ def input_spread(
     return np.sqrt(variance)
 
 
-def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution: float) -> bool:
+def admits(
+    model: str | Model, mass_ratio: float, stiffness_ratio: float, restitution: float
+) -> bool:
     """Whether a model has an answer for numbers. Arguments and errors: `planarimpact.models`.
 
     Examples
@@ -175,10 +181,10 @@ def admits(model: Model, mass_ratio: float, stiffness_ratio: float, restitution:
     >>> [admits(get(name), 3.5, 5.0, 0.5) for name in names]
     [False, True, False]
     """
+    model, groups = get(model), checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)[1:]
     low, high = model.restitution
-    tabled = model.name.startswith("spheres.")
-    covered = not tabled or spheres.covers(mass_ratio, stiffness_ratio, restitution)
-    return low <= restitution <= high and bool(covered)
+    covered = not model.name.startswith("spheres.") or spheres.covers(*groups)
+    return bool(np.all((groups[-1] >= low) & (groups[-1] <= high) & covered))
 
 
 def register(model: Model) -> None:
@@ -189,8 +195,8 @@ def register(model: Model) -> None:
     at both ends of its range of restitution.
 
     Arguments and errors: `planarimpact.models`; `laws.of_velocity` makes a `rebound` of a velocity
-    alone. It is refused if the name is taken, the restitution is no range within 0 to 1, or
-    `rebound` fails, gives no `Rebound`, another shape than that of the incidences, or a velocity
+    alone. It is refused if the name is taken or no word, the restitution is no range within 0 to 1,
+    or `rebound` fails, gives no `Rebound`, another shape than that of the incidences, or a velocity
     that is no number, not opposite at the opposite incidence or farther from it than friction can
     bring it.
 
@@ -206,11 +212,15 @@ def register(model: Model) -> None:
     >>> register(Model("rigid", velocity))
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: name = 'rigid': allowed are names that no model has
+    planarimpact.InputError: name = 'rigid': allowed are names that no model has, of one word
     >>> del MODELS["example.half"]
     """
-    if model.name in MODELS:
-        raise checks.InputError(f"name = {model.name!r}: allowed are names that no model has")
+    if not isinstance(model, Model):
+        raise checks.InputError(f"model = {checks.brief(model)}: allowed is a models.Model")
+    name = model.name
+    if not isinstance(name, str) or name.split() != [name] or name in MODELS:
+        allowed = "names that no model has, of one word"
+        raise checks.InputError(f"name = {checks.brief(name)}: allowed are {allowed}")
     allowed = "two numbers from 0 to 1, the smaller first"
     ends = checks.checked("restitution", model.restitution, allowed, 0, 1)
     if ends.shape != (2,) or ends[0] > ends[1]:
@@ -229,7 +239,7 @@ def _refuse_other_convention(model: Model, restitution: float) -> None:
         result = model.rebound(*groups.values())
         alone = model.rebound(**groups | {"incidence": 2.0}, **model.settings)
     except Exception as error:
-        problem = f"{type(error).__name__}: {error}"
+        problem = checks.in_ascii(f"{type(error).__name__}: {error}")
         raise checks.InputError(f"{where}: it fails: {problem}") from error
     for answer, shape in ((result, x.shape), (alone, ())):
         if not isinstance(answer, Rebound):
@@ -267,23 +277,21 @@ def losses(model: str) -> dict[str, str]:
     return {other.loss: name for name, other in MODELS.items() if name == f"{model}.{other.loss}"}
 
 
-def _elastic(name: str, solve: Callable[..., Rebound]) -> Callable[..., Rebound]:
-    """A solver with the loss left out, for e = 1 alone; a refusal names the models with a loss."""
-
-    @wraps(solve)
-    def rebound(
-        incidence: ArrayLike,
-        mass_ratio: ArrayLike = 3.5,
-        stiffness_ratio: ArrayLike = 1.21,
-        restitution: ArrayLike = 1.0,
-        **settings: float,
-    ) -> Rebound:
-        groups = incidence, mass_ratio, stiffness_ratio, restitution
-        checks.impact(*groups)
-        checks.lossless(restitution, losses(name).values(), "the model's name")
-        return solve(*groups, **settings)
-
-    return rebound
+def _elastic(
+    name: str,
+    solve: Callable[..., Rebound],
+    /,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
+    **settings: float,
+) -> Rebound:
+    """Solve with the loss left out, for e = 1 alone; a refusal names the models with a loss."""
+    groups = incidence, mass_ratio, stiffness_ratio, restitution
+    checks.impact(*groups)
+    checks.lossless(restitution, losses(name).values(), "the model's name")
+    return solve(*groups, **settings)
 
 
 def _stepped(name: str, law: timestep.Law, valid: str, source: str) -> Model:
@@ -351,7 +359,7 @@ MODELS = {
         ),
         Model(
             "lumped",
-            _elastic("lumped", lumped.rebound),
+            partial(_elastic, "lumped", lumped.rebound),
             cost="phases",
             restitution=_ELASTIC,
             valid="linear springs, contact sticks and slips as a whole; solved to rounding; "
@@ -405,9 +413,7 @@ MODELS = {
         ),
         Model(
             "continuum",
-            partial(
-                _elastic("continuum", continuum.rebound), tolerance=continuum.ELASTIC_TOLERANCE
-            ),
+            partial(_elastic, "continuum", continuum.rebound),
             {"tolerance": continuum.ELASTIC_TOLERANCE},
             "steps",
             _ELASTIC,
@@ -456,4 +462,4 @@ def reference(restitution: float, loss: str | None = None) -> str:
         checks.lossless(restitution, continuum.LOSSES)
         return "continuum"
     checks.loss(loss, continuum.LOSSES)
-    return "continuum" if checks.restitution(restitution) == 1 else f"continuum.{loss}"
+    return "continuum" if np.all(checks.restitution(restitution) == 1) else f"continuum.{loss}"

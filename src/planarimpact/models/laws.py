@@ -18,7 +18,9 @@ b tangential restitution; B = (1 + e) beta, the change of velocity in slip throu
 """
 
 import functools
+import sys
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -103,7 +105,7 @@ def smith(
     return _rebound(signed, velocity, beta, e, slides)
 
 
-def of_velocity(velocity: Callable[..., ArrayLike]) -> Callable[..., Rebound]:
+class of_velocity:  # in small letters, as users call it, or decorate with it, like a function
     """Make a law of impulses of a function that gives only the velocity at separation.
 
     Parameters
@@ -137,18 +139,29 @@ def of_velocity(velocity: Callable[..., ArrayLike]) -> Callable[..., Rebound]:
     ([-0.0, 2.0], 'SLIP_THROUGHOUT')
     """
 
+    def __init__(self, velocity: Callable[..., ArrayLike]) -> None:
+        functools.update_wrapper(self, velocity)
+        self._velocity = velocity
+
+    def __reduce__(self) -> str | tuple[Any, ...]:
+        """Pickle it by its name if it is a decorated function, else by its velocity."""
+        name = getattr(self, "__qualname__", "")
+        decorated = getattr(sys.modules.get(self.__module__), name, None) is self
+        return name if decorated else (of_velocity, (self._velocity,))
+
     @checks.default_errors
-    @functools.wraps(velocity)
-    def rebound(
+    def __call__(
+        self,
         incidence: ArrayLike,
         mass_ratio: ArrayLike = 3.5,
         stiffness_ratio: ArrayLike = 1.21,
         restitution: ArrayLike = 1.0,
         **settings: float,
     ) -> Rebound:
+        """State at separation by the velocity."""
         groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
         signed, (x, beta, zeta2, e) = groups[0], (np.abs(a).reshape(-1) for a in groups)
-        found = np.asarray(velocity(x, beta, zeta2, e, **settings), float)
+        found = np.asarray(self._velocity(x, beta, zeta2, e, **settings), float)
         if found.shape != x.shape:
             raise checks.InputError(
                 f"velocities, shape {found.shape}: allowed is that of the incidences, {x.shape}"
@@ -156,8 +169,6 @@ def of_velocity(velocity: Callable[..., ArrayLike]) -> Callable[..., Rebound]:
         slides = np.isclose(found, sliding.velocity(x, beta, e), rtol=1e-12, atol=1e-12)
         result = _rebound(signed, found, beta, e, slides)
         return result._replace(peak_friction=np.full(signed.shape, np.nan)[()])
-
-    return rebound
 
 
 def _rebound(signed: Array, velocity: Array, beta: Array, e: Array, slides: Booleans) -> Rebound:

@@ -358,7 +358,7 @@ def _checked(
     if loss == "unloading-stiffness":
         if not e.all():
             raise InputError(
-                f"restitution = 0: with loss = {loss!r} allowed are numbers above 0 (for no "
+                f"restitution = 0: with loss = '{loss}' allowed are numbers above 0 (for no "
                 "tangential compliance use noncollinear.rigid)"
             )
         zeta2 = e * (e * zeta2)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.bodies import Motion
+from planarimpact.bodies import Motion, fields
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
 from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive
@@ -109,8 +109,8 @@ def checked_inverse_mass(value: InverseMass) -> InverseMass:
     """Check that an inverse mass is that of a body: finite, positive definite."""
     if not isinstance(value, InverseMass):
         raise InputError(
-            f"inverse_mass = {value!r}: allowed are InverseMass({', '.join(InverseMass._fields)})"
-            " tuples, as inverse_mass(...) makes them"
+            f"inverse_mass = {checks.brief(value)}: allowed are "
+            f"InverseMass({', '.join(InverseMass._fields)}) tuples, as inverse_mass(...) makes them"
         )
     tangential, coupling, normal = checks.broadcast(
         tangential=positive("inverse_mass.tangential", value.tangential),
@@ -123,7 +123,7 @@ def checked_inverse_mass(value: InverseMass) -> InverseMass:
     if not definite.all():
         index = tuple(int(i) for i in np.argwhere(~definite)[0])
         raise InputError(
-            f"inverse_mass.coupling = {float(coupling[index])!r}: allowed are numbers whose square"
+            f"inverse_mass.coupling = {float(coupling[index])}: allowed are numbers whose square"
             " is below tangential times normal"
         )
     return InverseMass(tangential[()], coupling[()], normal[()])
@@ -178,9 +178,7 @@ def contact_velocity(motion: Motion, offset: ArrayLike, depth: ArrayLike) -> tup
     [1.0, 0.5]
     """
     tangential, normal, spin, offset, depth = checks.broadcast(
-        tangential=finite("motion.tangential", motion.tangential),
-        normal=finite("motion.normal", motion.normal),
-        spin=finite("motion.spin", motion.spin),
+        **fields("motion", motion, Motion),
         offset=finite("offset", offset),
         depth=finite("depth", depth),
     )
@@ -219,7 +217,10 @@ def motion_after(
     >>> [float(v) for v in after]
     [0.0, -0.5, 3.0]
     """
-    friction, normal = impulses
+    try:
+        friction, normal = impulses
+    except (TypeError, ValueError):
+        raise InputError(f"impulses = {checks.brief(impulses)}: allowed are two") from None
     mass, gyration, friction, normal, offset, depth, tangential, approach, spin = checks.broadcast(
         mass=positive("mass", mass),
         gyration=positive("gyration", gyration),
@@ -227,7 +228,7 @@ def motion_after(
         normal=finite("impulses[1]", normal),
         offset=finite("offset", offset),
         depth=finite("depth", depth),
-        **{f"motion.{n}": finite(f"motion.{n}", v) for n, v in motion._asdict().items()},
+        **fields("motion", motion, Motion),
     )
     spin_change = (normal * offset - friction * depth) / mass / gyration**2
     return Motion(tangential - friction / mass, approach - normal / mass, spin + spin_change)

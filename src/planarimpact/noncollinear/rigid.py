@@ -30,8 +30,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans
-from planarimpact.ground.checks import InputError, default_errors
+from planarimpact.ground.checks import InputError
 from planarimpact.noncollinear.configuration import InverseMass, checked_impact, refuse_overflow
 
 
@@ -70,7 +71,7 @@ class ImpulsiveRebound(NamedTuple):
     jams: Booleans
 
 
-@default_errors
+@checks.default_errors
 def rebound(
     tangential: ArrayLike,
     normal: ArrayLike,
@@ -114,7 +115,7 @@ def rebound(
     [-0.5, -0.5]
     """
     if not isinstance(law, str) or law not in list(Law):
-        raise InputError(f"law = {law!r}: allowed are {', '.join(Law)}")
+        raise InputError(f"law = {checks.brief(law)}: allowed are {', '.join(Law)}")
     v1, v2, mu, e, inverse_m1, c, inverse_m2 = checked_impact(
         tangential, normal, inverse_mass, friction, restitution
     )

@@ -69,7 +69,7 @@ def state(phase: ArrayLike) -> tuple[Array, Array, Array]:
     >>> [round(float(a), 9) for a in state(np.pi / 2)]  # the pace is 2 sqrt(2/5)
     [1.0, 1.264911064, 0.0]
     """
-    phase = np.asarray(phase, dtype=float)
+    phase = checks.real("phase", phase)
     radius = np.sin(phase)
     slowness = _slowness(radius)
     return radius, 2 * radius * slowness, np.cos(phase) / slowness
@@ -98,7 +98,7 @@ def phase_at(velocity: ArrayLike) -> Array:
     >>> round(float(phase_at(velocity(2.0))), 12)
     2.0
     """
-    v = np.asarray(velocity, dtype=float)
+    v = checks.real("velocity", velocity)
     with np.errstate(divide="ignore"):  # log of 0 at both ends of the contact
         log = np.log1p(-v * v)
     cosine = np.copysign(np.sqrt(-np.expm1(0.4 * log)), v)
@@ -125,7 +125,7 @@ def time(phase: ArrayLike) -> Array:
     """
     from scipy.special import betainc  # here, as it takes longer to import than this package
 
-    phase = np.asarray(phase, dtype=float)
+    phase = checks.real("phase", phase)
     share, v = np.sin(phase) ** 5, velocity(phase)
     # These are two forms of one function. Each is used where it loses no digits.
     to_go = betainc(0.5, 0.4, np.minimum(v * v, 1.0))

@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from planarimpact.collision import LOSSES, RESTITUTION_FROM
+from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.ground.checks import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
 
-# Texts of a loss that is not said.
-EMPTY = "", "None", "nan", "<NA>"
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 
@@ -155,9 +154,9 @@ def named(headers: Iterable[object]) -> dict[str, str]:
         name, unit = (parts["name"], parts["unit"]) if parts else (text, None)
         if name in KNOWN and unit not in ((KNOWN[name].unit,) if KNOWN[name].unit else (None, "1")):
             allowed = f"is [{KNOWN[name].unit}]" if KNOWN[name].unit else "is none: it is a number"
-            raise InputError(f"column {text!r}: the unit of {name} {allowed}")
+            raise InputError(f"column {text!a}: the unit of {name} {allowed}")
         if name in header_of or text in others:
-            raise InputError(f"column {text!r} is there twice")
+            raise InputError(f"column {text!a} is there twice")
         if name in KNOWN:
             header_of[name] = text
         else:
@@ -166,7 +165,7 @@ def named(headers: Iterable[object]) -> dict[str, str]:
     try:
         _refuse_incomplete(set(header_of))
     except InputError as error:
-        unknown = ", ".join(repr(text) for text in others if text != LABEL)
+        unknown = ", ".join(ascii(text) for text in others if text != LABEL)
         raise InputError(f"{error}; unknown is {unknown}" if unknown else str(error)) from None
     return header_of
 
@@ -175,12 +174,12 @@ def _refuse_similar(text: str, name: str) -> None:
     """Refuse an unknown column that may be meant for a known one, or that the result has."""
     if text.strip() in ADDED:
         raise InputError(
-            f"column {text!r}: the result has a column of this name; leave it out or rename it"
+            f"column {text!a}: the result has a column of this name; leave it out or rename it"
         )
     close = difflib.get_close_matches(name.lower(), KNOWN, n=1, cutoff=CLOSE)
     if close:
         raise InputError(
-            f"column {text!r}: unknown; did you mean '{header(close[0])}'? If it is your own, "
+            f"column {text!a}: unknown; did you mean '{header(close[0])}'? If it is your own, "
             "rename it"
         )
 
@@ -258,7 +257,7 @@ def numbers(
         values[name], bad = check(table[text])
         for position in np.flatnonzero(bad).tolist():
             cell = table[text].iloc[position]
-            shown = repr(cell) if isinstance(cell, str) else str(cell)
+            shown = checks.brief(cell) if isinstance(cell, str) else checks.in_ascii(str(cell))
             hint = DECIMALS if "," in shown else ""
             problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}{hint}")
     inertia = ("other_density", "other_mass", "other_gyration")
@@ -284,16 +283,16 @@ def _checked(series: "pd.Series", column: Column) -> tuple[Array, Booleans]:
     from pandas.api import types
 
     is_number = types.is_integer_dtype(series) or types.is_float_dtype(series)
-    if is_number and series.dtype.itemsize <= 8:
+    if is_number and getattr(series.dtype, "itemsize", 16) <= 8:
         values = series.to_numpy(dtype=float, na_value=np.nan)
-    else:  # words, numbers that float64 may not hold, or other objects: cell by cell
+    else:  # words, numbers that float64 may not hold, sparse or other objects: cell by cell
         values = np.array([_number(cell) for cell in series], dtype=float)
     return values, ~((values >= column.low) & (values <= column.high))
 
 
 def _losses(series: "pd.Series") -> tuple[Any, Booleans]:
     """The loss in each cell, empty where there is none; and which are unknown."""
-    known = dict.fromkeys(EMPTY, "") | {loss: loss for loss in LOSSES}
+    known = dict.fromkeys(checks.NO_LOSS, "") | {loss: loss for loss in LOSSES}
     cells = series.to_numpy(dtype=object)  # pandas' own loop over words takes ten times as long
     words = np.array([known.get(str(cell).strip(), "?") for cell in cells], dtype=str)
     return words, words == "?"

@@ -1,6 +1,5 @@
 """Solves tables of impacts, block by block, and counts what it did."""
 
-import reprlib
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
@@ -68,7 +67,7 @@ class Solver:
 
         if not isinstance(table, pd.DataFrame):
             raise InputError(
-                f"table = {' '.join(reprlib.repr(table).split())}: allowed is a pandas DataFrame; "
+                f"table = {checks.brief(table)}: allowed is a pandas DataFrame; "
                 "`python -m planarimpact scene` reads files"
             )
         names = columns.named(table.columns)
@@ -123,7 +122,7 @@ class Solver:
         answers = rungs.answers(rows.impacts, self.tolerance, peaks=True)
         unsolved = {int(good[i]): message for i, message in answers.unsolved.items()}
         self._refuse(unsolved, skip_bad, ConvergenceError)
-        form = model_form.model_forms(rows.impacts, answers)
+        form = model_form.model_forms(rows.impacts, answers.place, answers.velocity)
         self._count(rows, answers, form)
         problems |= unsolved
         self.bad += [(self.rows + row + 1, problems[row]) for row in sorted(problems)]
@@ -135,7 +134,7 @@ class Solver:
         for name in names.keys() & {"loss", *RESTITUTION_FROM} - {"restitution"}:
             if self._loss is not None:
                 raise InputError(
-                    f"loss = {self._loss!r}: it does not apply, as the column {names[name]!r} says "
+                    f"loss = '{self._loss}': it does not apply, as the column '{names[name]}' says "
                     "what takes the energy"
                 )
 

@@ -39,7 +39,7 @@ def rows(values: dict[str, Any]) -> Rows:
     impacts = mechanics.impacts(pair, _normal(values), body, before, other, other_before)
     with np.errstate(divide="ignore", invalid="ignore"):  # without friction nothing resists
         coupling = np.abs(bodies.dundurs(*materials)) / values["friction"]
-    radius = mechanics.effective_radius(body, other)
+    radius = bodies.radius_of_two(body.radius, other.radius)
     return Rows(impacts, _peak_normal(impacts, pair.effective_modulus, radius), coupling)
 
 

@@ -51,7 +51,9 @@ def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: Array
     >>> covers(3.5, [1.0, 1.21, 2.0], 0.8).tolist()
     [True, True, False]
     """
-    beta, zeta2, e = map(np.asarray, (mass_ratio, stiffness_ratio, restitution))
+    beta = checks.real("mass_ratio", mass_ratio)
+    zeta2 = checks.real("stiffness_ratio", stiffness_ratio)
+    e = checks.real("restitution", restitution)
     with np.errstate(over="ignore"):  # of a stiffness ratio near 0
         ratio = beta / zeta2
     low, high = LEAST_RATIO * (1 - ROUNDING), LARGEST_RATIO * (1 + ROUNDING)
@@ -140,18 +142,15 @@ def rebound(
 table of spheres
     """
     groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    if loss is None:
-        checks.lossless(groups[-1], LOSSES)
-    losses = np.asarray(LOSSES[0] if loss is None else loss)
-    unknown = losses[~np.isin(losses, LOSSES)]
-    if unknown.size:
-        checks.loss(unknown.tolist()[0], LOSSES)
+    codes = checks.losses(loss, LOSSES)
     try:
-        signed, beta, zeta2, e, _ = np.broadcast_arrays(*groups, losses)
-        plastic = np.broadcast_to(losses == LOSSES[1], signed.shape).reshape(-1)
+        signed, beta, zeta2, e, codes = np.broadcast_arrays(*groups, codes)
     except ValueError:
-        shapes = f"groups {groups[0].shape}, loss {losses.shape}"
+        shapes = f"groups {groups[0].shape}, loss {codes.shape}"
         raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
+    if (codes < 0).any():
+        checks.lossless(np.where(codes < 0, e, 1.0), LOSSES)
+    plastic = (codes == 1).reshape(-1)
     _refuse_uncovered(beta, zeta2, e)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
     velocity, peak, work = np.empty((3, x.size))

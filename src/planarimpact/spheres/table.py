@@ -91,7 +91,10 @@ class Table(NamedTuple):
 def shipped(name: str = "fine") -> Table:
     """A table of this package: "fine", or "coarse", which is small and good enough for pictures."""
     with resources.files(__package__).joinpath(f"{name}.npz").open("rb") as file:
-        return read(file)
+        table = read(file)
+    for values in (table.limits, *(part for panel in table.panels.values() for part in panel[1:])):
+        values.setflags(write=False)  # all that ask for it have the same
+    return table
 
 
 def laws() -> list[str]:

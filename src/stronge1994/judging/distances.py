@@ -87,7 +87,7 @@ def vertex_residuals(
     sigma_x, sigma_y = (np.broadcast_to(np.asarray(axis, float), x.shape) for axis in sigma)
     for i, label in enumerate(points[2]):
         if label not in of_label:
-            raise ValueError(f"the reference has a vertex '{label}', the curves do not")
+            raise ValueError(f"the reference has a vertex {label!a}, the curves do not")
         dx, dy = x[i] - of_label[label][0], y[i] - of_label[label][1]
         distance = np.hypot(dx / sigma_x[i], dy / sigma_y[i])
         above[i] = dy[distance.argmin()]

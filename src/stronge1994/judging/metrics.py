@@ -176,14 +176,14 @@ def _columns_of(curves: Curves, name: str | None, needed: Sequence[str]) -> Colu
     `curve` has the name of each row's curve.
     """
     if name is not None and name not in curves:
-        raise ValueError(f"no curve '{name}'; the figure has {', '.join(curves)}")
+        raise ValueError(f"no curve {name!a}; the figure has {', '.join(curves)}")
     holders = [
         own | {"curve": np.full(len(next(iter(own.values()))), key)}
         for key, own in (curves if name is None else {name: curves[name]}).items()
         if {*needed} <= {"curve", *own}
     ]
     if not holders:
-        which = "no curve has" if name is None else f"curve '{name}' does not have"
+        which = "no curve has" if name is None else f"curve {name!a} does not have"
         raise ValueError(f"{which} the columns {', '.join(needed)}")
     shared = [key for key in holders[0] if all(key in own for own in holders)]
     return {key: np.concatenate([own[key] for own in holders]) for key in shared}

@@ -52,7 +52,7 @@ def called(check: str) -> tuple[Callable[..., float | Finding], inspect.BoundArg
     """
     name, _, arguments = check.removesuffix(")").partition("(")
     if name not in checks():
-        raise LookupError(f"'{check}' is no function of stronge1994.ledger")
+        raise LookupError(f"{check!a} is no function of stronge1994.ledger")
     function = checks()[name]
     # What `over` makes of a comparison at a place takes no place.
     signature = inspect.signature(function, follow_wrapped=False)

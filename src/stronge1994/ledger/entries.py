@@ -38,7 +38,7 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
     for name, entry in entries.items():
         for other in REFERENCE.findall(" ".join(map(str, entry.values()))):
             if other not in entries:
-                raise reference_data.SourceError(f"{path}: {name}: 'see {other}' is no entry")
+                raise reference_data.SourceError(f"{path}: {name}: {f'see {other}'!a} is no entry")
     return entries
 
 
@@ -52,7 +52,7 @@ def _refuse_unknown_checks(where: str, entry: Entry) -> None:
         raise reference_data.SourceError(f"{where}: {error}") from None
     for _, model, _ in NUMBER.findall(claim["says"]):
         if model not in MODELS:
-            raise reference_data.SourceError(f"{where}: '{model}' is no model")
+            raise reference_data.SourceError(f"{where}: {model!a} is no model")
 
 
 def _with_fact(where: str, entry: Entry, facts: Mapping[str, Mapping[str, Any]]) -> Entry:
@@ -63,7 +63,7 @@ def _with_fact(where: str, entry: Entry, facts: Mapping[str, Mapping[str, Any]])
     fact = facts.get(name, {})
     if not {"value", "tolerance"} <= set(fact):
         raise reference_data.SourceError(
-            f"{where}.confirms.fact = '{name}': source.yaml has no such fact with value and "
+            f"{where}.confirms.fact = {name!a}: source.yaml has no such fact with value and "
             "tolerance"
         )
     return entry | {"confirms": {"value": fact["value"], "rounding": fact["tolerance"]}}
@@ -75,7 +75,7 @@ def _explain(path: str | Path, entries: dict[str, Entry], causes: Mapping[str, s
         if "cause" in entry:
             if entry["cause"] not in causes:
                 raise reference_data.SourceError(
-                    f"{path}: {name}.cause = '{entry['cause']}': allowed are the causes at the "
+                    f"{path}: {name}.cause = {entry['cause']!a}: allowed are the causes at the "
                     f"head: {', '.join(causes)}"
                 )
             entry["because"] = causes[entry["cause"]]

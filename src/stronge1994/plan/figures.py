@@ -32,7 +32,7 @@ def stated() -> dict[str, Stated]:
         own, kinds = schema_of(settings), schema("config")["$defs"]
         for kind in re.findall(r"#/\$defs/(\w+)", f"{own}"):
             if kind not in kinds:
-                problem = f"'{kind}' is no kind of values; allowed are {', '.join(kinds)}"
+                problem = f"{kind!a} is no kind of values; allowed are {', '.join(kinds)}"
                 raise reference_data.SourceError(f"{path}: settings: allowed: {problem}")
         reference_data.refuse_invalid(values(settings), own | {"$defs": kinds}, f"{path}: settings")
         for file in ("curves.py", "drawing.py"):
@@ -98,7 +98,7 @@ def comparisons() -> dict[str, dict[str, Any]]:
                 whole = {"figure": figure} | entry
                 reference_data.refuse_invalid(whole, own, where)
                 if f"{figure}-{name}" in entries:
-                    raise reference_data.SourceError(f"{where}: '{name}' stands twice")
+                    raise reference_data.SourceError(f"{where}: {name!a} stands twice")
                 entries[f"{figure}-{name}"] = whole
     return entries
 

@@ -71,13 +71,13 @@ def faults_of_tables(
         if verdict in verdict_table.FAILS:
             messages.append(f"{verdict}: {name}: {verdict_table.why(row)}")
         elif verdict not in verdict_table.ORDER or (verdict == "awaited") != comparisons.get(name):
-            messages.append(f"{table}: {name} = {verdict!r} cannot be")
+            messages.append(f"{table}: {name} = {verdict!a} cannot be")
     for row in ledger:
         name, holds = row.get("entry", ""), row.get("holds")
         if holds == "no":
             messages.append(f"no longer holds: {name}: {row.get('problem')}")
         elif holds != ("yes" if entries.get(name) else ""):
-            messages.append(f"{TABLES[1]}: {name}, holds = {holds!r} cannot be")
+            messages.append(f"{TABLES[1]}: {name}, holds = {holds!a} cannot be")
     return messages
 
 

@@ -67,7 +67,7 @@ def _check_range(impacts: Impacts) -> None:
     for name, values, bad, rule in rules:
         if bad.any():
             found = float(values[bad][0])
-            raise checks.InputError(f"{name} = {found!r}: allowed are {rule} where loss='viscous'")
+            raise checks.InputError(f"{name} = {found}: allowed are {rule} where loss='viscous'")
 
 
 def solve(impacts: Impacts) -> Outcome:

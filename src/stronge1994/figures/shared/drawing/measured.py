@@ -29,7 +29,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
         for place, name in enumerate(models):
             if missing := {x, y} - curves[name].keys():
                 known = ", ".join(curves[name])
-                raise ValueError(f"no column '{min(missing)}'; the curves have {known}")
+                raise ValueError(f"no column {min(missing)!a}; the curves have {known}")
             # Each time that the colours are through, the patterns are one further on.
             pattern = DASHES[(place + place // len(COLOURS)) % len(DASHES)]
             style = {"color": COLOURS[place % len(COLOURS)], "linestyle": pattern}
