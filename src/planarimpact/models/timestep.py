@@ -51,7 +51,7 @@ law                 factor  gain              order  distance
 `MINDLIN_RESCALED`  1.0076  4.3; 1.01         1      0.31
 ==================  ======  ================  =====  ========
 
-The overlap is taken to vanish beside the radius, so the normal does not turn.
+The overlap is taken to vanish beside the radius: no normal turns, no lever arm becomes shorter.
 
 Units: m2 and |v2(0)|, times mu in tangential direction; the largest approach of a contact that
 loses nothing. So the normal spring has the force d where it is linear, and 1.25 d^(3/2) where it is
