@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, continuum, lumped
-from planarimpact.continuum import inelastic
+from planarimpact.continuum import elastic, inelastic
 from planarimpact.continuum.micro_slip import ElasticSprings
 from planarimpact.ground import sliding
 from planarimpact.normal_impact import hertz
@@ -133,15 +133,16 @@ def test_the_end_of_slip_within_a_step_is_not_missed():
     exact = 0.35764792  # extrapolated from 2048 steps
     assert continuum.rebound(*groups, tolerance=1e-4).regime == Regime.MULTIPLE
     for steps in (128, 256, 512):
-        assert abs(continuum.fixed_steps(*groups, steps, True) - exact) < 1e-5
+        assert abs(elastic.velocity(*np.array(groups)[:, None], steps, True) - exact) < 1e-5
 
 
 def test_error_falls_with_the_square_of_the_steps_and_better_extrapolated():
     x = np.linspace(0.1, 5.7, 30)
-    exact = continuum.fixed_steps(x, 3.5, 17 / 14, 2048, True)
+    groups = x, np.full(30, 3.5), np.full(30, 17 / 14)
+    exact = elastic.velocity(*groups, 2048, True)
     errors = []
     for steps in (64, 128, 256, 512):
-        answers = [continuum.fixed_steps(x, 3.5, 17 / 14, steps, better) for better in (0, 1)]
+        answers = [elastic.velocity(*groups, steps, better) for better in (False, True)]
         errors.append(np.sqrt(np.mean(np.square(answers - exact), axis=1)))
     once, twice = np.log2(np.array(errors)[:-1] / np.array(errors)[1:]).T
     assert (np.abs(once - 2) < 0.1).all(), once

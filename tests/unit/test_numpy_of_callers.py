@@ -43,7 +43,6 @@ CALLS = [
     partial(lumped.slip_throughout_limit, 3.5, [TINY, 1e150], TINY),
     partial(lumped.friction_work, TINY),
     partial(laws.brach, TINY, tangential_restitution=TINY),
-    partial(continuum.fixed_steps, WIDE[:-1], steps=8),
     partial(annuli.friction, [1e-6, 1.0], [TINY, 1e-200], circles=4),
     partial(micro_slip.friction, [1e-6, 1.0], [TINY, 1e-200]),
     partial(cattaneo_mindlin.friction, TINY),

@@ -94,13 +94,13 @@ def test_a_series_that_is_compared_is_drawn_by_its_drawing_or_beside_it(given):
     series = {"x": [2.0, 6.0], "y": [0.5, 1.0], "sigma": (0.1, 0.2), "kind": "digitised"}
     axes = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
     points = {"mine/spheres": series | {"name": "mine/spheres", "axes": axes}}
-    (panel,) = drawings.with_all(draw(curves), curves, points).axes
+    (panel,) = drawings.with_all(draw(curves), points).axes
     assert [text.get_text() for text in panel.get_legend().get_texts()] == ["mine/spheres"]
     assert panel.containers[0].lines[0].get_xydata().tolist() == [[2, 0.5], [6, 1]]
     # Fig. 5 draws its own, but for those of axes that it lacks.
     curves, draw, points = given("fig5")
     lines = [line for axes in draw(curves).axes for line in axes.lines]
-    whole = drawings.with_all(draw(curves), curves, points)
+    whole = drawings.with_all(draw(curves), points)
     assert len([line for axes in whole.axes for line in axes.lines]) == len(lines)
 
 

@@ -230,47 +230,6 @@ def slip_throughout_limit(
 
 
 @checks.default_errors
-def fixed_steps(
-    incidence: ArrayLike,
-    mass_ratio: ArrayLike = 3.5,
-    stiffness_ratio: ArrayLike = 1.21,
-    steps: int = 128,
-    extrapolate: bool = False,
-) -> Array:
-    """Velocity at separation with a given number of steps, whatever its error.
-
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio : array_like
-        As in `rebound`.
-    steps : int
-        2 to 32768, and at least pi times the root of beta/zeta^2: with fewer the tangential
-        oscillation may grow. With `extrapolate` an even number, at least twice as large.
-    extrapolate : bool
-        Solve with half the steps too, and take away the part of the error that falls with their
-        square.
-
-    Returns
-    -------
-    ndarray of float64 or float
-
-    Raises
-    ------
-    InputError
-        As `rebound`; also if `steps` is no such number.
-
-    Examples
-    --------
-    >>> [round(float(fixed_steps(2.0, steps=64, extrapolate=e)), 5) for e in (False, True)]
-    [-0.66502, -0.66594]
-    """
-    signed, beta, zeta2, _ = checks.impact(incidence, mass_ratio, stiffness_ratio, 1.0)
-    size, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
-    velocity = elastic.velocity(size, beta, zeta2, steps, extrapolate)
-    return (np.copysign(1.0, signed) * velocity.reshape(signed.shape))[()]
-
-
-@checks.default_errors
 def history(
     incidence: float,
     mass_ratio: float = 3.5,

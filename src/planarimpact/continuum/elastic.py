@@ -4,7 +4,7 @@ import numpy as np
 
 from planarimpact.continuum import refinement, tangential_motion
 from planarimpact.continuum.refinement import Solved
-from planarimpact.ground import checks, sliding
+from planarimpact.ground import sliding
 from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.ground.results import Regime
 
@@ -44,15 +44,14 @@ def rebound(
 
 
 def velocity(x: Array, beta: Array, zeta2: Array, steps: int, extrapolate: bool) -> Array:
-    """Velocity at separation with a number of steps, shape (n,); as `continuum.fixed_steps`."""
+    """Velocity at separation with an even number of steps, shape (n,), whatever its error.
+
+    To extrapolate is to solve with half the steps too, and to take away the part of the error that
+    falls with their square.
+    """
     at_separation, _, _, regime, _ = _at_limits(x, beta, zeta2)
     stepped = np.flatnonzero(regime == _UNSOLVED)
     groups = x[stepped], beta[stepped], zeta2[stepped]
-    resolved = np.max(refinement.steps_needed(*groups[1:]), initial=0.0)
-    needed = resolved / refinement.STEPS_A_RADIAN * (2 if extrapolate else 1)
-    steps = checks.explicit_steps(steps, needed, 2, MOST_STEPS)
-    if extrapolate and steps % 2:
-        raise checks.InputError(f"steps = {steps}: allowed are even integers where extrapolated")
     at_separation[stepped] = _integrate(groups, steps)[0][0]
     if extrapolate:
         coarse = _integrate(groups, steps // 2)[0][0]

@@ -4,16 +4,13 @@ Nothing here solves: pictures are made from tables alone.
 """
 
 import importlib
-import itertools
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from stronge1994 import csv_tables, reference_data
-from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.figures.shared.drawing.house_style import Points, Series
 
@@ -29,7 +26,7 @@ def draw(
     curves, points = csv_tables.read(curves_path), series(plan["overlays"])
 
     def drawn() -> Figure:
-        return with_all(module.draw(curves, plan["settings"], points), curves, points)
+        return with_all(module.draw(curves, plan["settings"], points), points)
 
     house_style.save(drawn(), pictures["svg"], pictures["png"])
     if plan["slide"]:
@@ -37,7 +34,7 @@ def draw(
         slide.save(drawn(), **plan["slide"], **grounds)
 
 
-def with_all(figure: Figure, curves: Curves, points: Points) -> Figure:
+def with_all(figure: Figure, points: Points) -> Figure:
     """A figure with those series that its drawing has left out, each where a panel has its axes.
 
     So nothing is compared in silence. A series of other axes, such as one against an angle that is
@@ -48,24 +45,14 @@ def with_all(figure: Figure, curves: Curves, points: Points) -> Figure:
         drawn.add(line.get_gid())  # of `house_style.measured`
         line.set_gid(None)  # in a file it would be an id, and some series have several lines
     for name, one in points.items():
-        if one.get("kind") in (None, "computed") or name in drawn:  # a stated fact is no series
-            continue
-        for axes in figure.axes:
-            lines = itertools.product(axes.lines, curves.values())
-            if any(_shows(line, curve, *one["axes"]) for line, curve in lines):
-                style = {"marker": "o", "markerfacecolor": "white", "label": name}
-                axes.legend(handles=[house_style.measured(axes, one, **style)])
-                break
+        published = one.get("kind") not in (None, "computed")  # a stated fact has no kind
+        panels = [axes for axes in figure.axes if axes.get_label() == f"{one.get('axes')}"]
+        if published and panels and name not in drawn:
+            style = {"marker": "o", "markerfacecolor": "white", "label": name}
+            house_style.measured(panels[0], one, **style)
+            added = [bars for bars in panels[0].containers if bars.get_label() in points]
+            panels[0].legend(handles=added)
     return figure
-
-
-def _shows(line: Line2D, curve: Columns, x: str, y: str) -> bool:
-    """Whether a line is column `y` of a curve against `x`, where it has no gap."""
-    if not {x, y} <= curve.keys() or not np.array_equal(line.get_xdata(), curve[x]):
-        return False
-    height = np.asarray(line.get_ydata())
-    there = np.isfinite(height)
-    return bool(there.any()) and np.array_equal(height[there], curve[y][there])
 
 
 def series(overlays: Mapping[str, Mapping[str, Any]]) -> Points:

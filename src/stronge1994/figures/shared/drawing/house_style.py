@@ -175,7 +175,7 @@ def line(
     """
     curve = curves[name]
     height = curve[y] if rows is None else np.where(rows, curve[y], np.nan)
-    axes.set(xlabel=of_column(x), ylabel=of_column(y))
+    axes.set(xlabel=of_column(x), ylabel=of_column(y), label=f"{(x, y)}")
     return axes.plot(curve[x], height, **{"label": symbols(name)} | style)[0]
 
 
