@@ -3,7 +3,7 @@
 Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; MercuryDPM,
 `LinearViscoelasticInteraction.cc`, `SlidingFrictionInteraction.cc`, of 2020; Yade,
 `pkg/dem/ViscoelasticPM.cpp`, of 2021; for their motion see `overlaps`. What LAMMPS answers is in
-`data/lammps`. Yade 2023.02a was run by hand; MercuryDPM was not run.
+`data/lammps`; nothing here runs the other two.
 """
 
 import math
