@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from planarimpact.collision import TOLERANCE
-from planarimpact.ground import csv_text, files
+from planarimpact.ground import checks, csv_text, files
 from planarimpact.ground.checks import InputError
 from planarimpact.scene import columns
 from planarimpact.scene.solver import BLOCK, Solver
@@ -103,8 +103,8 @@ def _checked(path: str | Path) -> str:
     name = str(path)
     if name != STREAM and not name.lower().endswith(KINDS):
         raise InputError(
-            f"{name}: allowed are names that end in {', '.join(KINDS)}, and {STREAM} for standard "
-            "input or output"
+            f"{checks.in_ascii(name)}: allowed are names that end in {', '.join(KINDS)}, and "
+            f"{STREAM} for standard input or output"
         )
     return name
 
@@ -120,7 +120,7 @@ def _solved(
                 continue
             table = part.to_pandas(types_mapper=pd.ArrowDtype, ignore_metadata=True)
             names = columns.named(table)
-            own = [repr(name) for name in table if name not in {*names.values(), columns.LABEL}]
+            own = [ascii(name) for name in table if name not in {*names.values(), columns.LABEL}]
             if notice and own and not solver.rows:
                 notice(f"not known, and carried over as they are: columns {', '.join(own)}")
             after = solver.solve(table, skip_bad)
@@ -134,7 +134,7 @@ def _solved(
             raise
         name = "standard input" if source == STREAM else source
         words, *_ = str(error).splitlines() or [type(error).__name__]
-        raise InputError(f"{name}: {words}") from None
+        raise InputError(f"{name}: {checks.in_ascii(words)}") from None
 
 
 def _parts(source: str, skip: Callable[[int, str], None] | None) -> Iterator[pa.Table]:
