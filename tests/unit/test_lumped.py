@@ -76,6 +76,8 @@ def test_unloading_stiffness_is_the_elastic_stiffness_of_unloading():
         limit = rigid.rebound(X, 3.5, 1.21, none)
         for name in ALIKE[:3]:
             np.testing.assert_allclose(getattr(found, name), getattr(limit, name), atol=1e-13)
+        slides = lumped.history(3.6, 3.5, 1.21, none, loss="unloading-stiffness")
+        np.testing.assert_array_equal(slides.friction, slides.normal)
 
 
 # One contact.

@@ -18,7 +18,8 @@ The keyword `loss` says what takes the normal energy where e < 1. At e = 1 all a
 All four functions take arguments of `rebound`, which says what they mean and their ranges:
 `incidence`, `mass_ratio`, `stiffness_ratio`, `restitution` and `loss`. `history` and
 `friction_work` are of one contact: they take scalars alone, and a contact of 100 000 phases at
-most. An argument that is not allowed raises `InputError`.
+most. Where it sticks in compression, a history needs omega/Omega up to 1e9, for digits of friction:
+so e = 0 has none with "unloading-stiffness". An argument not allowed raises `InputError`.
 
 Errors that these functions state are those of the solution. The model itself is further off. For a
 solid sphere of Poisson's ratio 0.3 and e = 1 its velocity differs from the elastic continuum by up

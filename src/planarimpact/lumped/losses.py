@@ -12,6 +12,9 @@ from planarimpact.lumped import hysteretic, viscous
 from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 
+# Largest omega/Omega of stick in compression in a history: rounding moves its friction by 1e-6.
+LARGEST_FREQUENCY = 1e9
+
 
 class Hysteretic:
     """The paper's element, of which only the normal direction loses energy."""
@@ -45,7 +48,15 @@ class Hysteretic:
 
     def history(self, mirror: float, impacts: Impacts, samples: int) -> History:
         """One contact, its arrays of shape (1,)."""
-        return hysteretic.history(mirror, self._element(impacts), samples)
+        element = self._element(impacts)
+        x, beta, zeta2, e = (float(group[0]) for group in element)
+        if 0 < x < beta and np.sqrt(beta) > LARGEST_FREQUENCY * np.sqrt(zeta2):
+            raise checks.InputError(
+                f"restitution = {e!r}, stiffness_ratio = {float(impacts.zeta2[0])!r}: in a history"
+                f" allowed are tangential frequencies omega/Omega up to {LARGEST_FREQUENCY:g} (for "
+                "no tangential compliance use planarimpact.rigid)"
+            )
+        return hysteretic.history(mirror, element, samples)
 
     def friction_work(self, impacts: Impacts) -> float:
         """Work of friction in one contact, computed in another way than by `solve`, if possible."""

@@ -164,9 +164,10 @@ def rebound(
 
     Notes
     -----
-    Each phase has a closed form. The energy balances to 1e-12 of the kinetic energy or, where that
-    is more, 1e-14/(1 - c^2 m1 m2) of it: near c^2 m1 m2 = 1 the energy is a small difference of
-    velocities. With c = 0 it is `planarimpact.lumped.rebound` in other units, to 1e-12.
+    Each phase has a closed form. Impulses are sums over the phases, and keep |p1| <= mu p2 to 1e-11
+    however near c^2 m1 m2 is to 1. Times the mean of the velocities before and after they are the
+    energy that is lost, to 1e-12 of the kinetic energy. With c = 0 it is
+    `planarimpact.lumped.rebound` in other units, to 1e-12.
 
     The state at separation is continuous in all arguments, with one exception. Where
     mu |c| m2 >= 1 the contact may come to N = 0 with no normal velocity. Then it either separates,
@@ -187,18 +188,14 @@ def rebound(
     arguments = _checked(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
-    v1, v2, coupling, m2, e, kappa, impacts = _groups(arguments)
+    v2, m2, e, kappa, impacts = _groups(arguments)
     chunks = [
         solve(Impacts._make(field[start : start + CHUNK] for field in impacts))
-        for start in range(0, max(v1.size, 1), CHUNK)  # one chunk even without an impact
+        for start in range(0, max(v2.size, 1), CHUNK)  # one chunk even without an impact
     ]
     outcome = Outcome(*(np.concatenate(column) for column in zip(*chunks, strict=True)))
-    velocity, approach, peak_friction, peak_normal, work, duration, regime, jams, given_up = outcome
-    # The impulses are the effective masses times the fall of velocity.
-    change = impacts.velocity - velocity, 1 - approach
-    determinant = impacts.mass_ratio - coupling**2
-    friction_impulse = (change[0] + coupling * change[1]) / determinant
-    normal_impulse = (coupling * change[0] + impacts.mass_ratio * change[1]) / determinant
+    velocity, approach, friction_impulse, normal_impulse, peak_friction, peak_normal = outcome[:6]
+    work, duration, regime, jams, given_up = outcome[6:]
     force_unit = np.sqrt(m2) * np.sqrt(kappa) * v2
     with np.errstate(over="ignore"):
         fields = [
@@ -276,7 +273,7 @@ def history(
     )
     if arguments[0].ndim:
         raise InputError(f"shape = {arguments[0].shape}: one contact takes scalars")
-    _, v2, _, m2, e, kappa, impacts = _groups(arguments)
+    v2, m2, e, kappa, impacts = _groups(arguments)
     trace: list[Phase] = []
     if solve(impacts, trace).given_up[0]:
         raise ConvergenceError(_given_up(impacts, np.zeros(1, int)))
@@ -365,10 +362,8 @@ def _checked(
     return v1, v2, mu, e, zeta2, *others
 
 
-def _groups(
-    arguments: tuple[Array, ...],
-) -> tuple[Array, Array, Array, Array, Array, Array, Impacts]:
-    """Flat arrays: v1, v2, coupling m2 c, m2, e, kappa, and the impacts in the solver's units."""
+def _groups(arguments: tuple[Array, ...]) -> tuple[Array, Array, Array, Array, Impacts]:
+    """Flat arrays: v2, m2, e, kappa, and the impacts in the solver's units."""
     v1, v2, mu, e, zeta2, kappa, inverse_m1, c, inverse_m2 = arguments
     with np.errstate(over="ignore", under="ignore"):
         groups = {
@@ -382,9 +377,9 @@ def _groups(
         checked(name, group, f"numbers from {low:g} to {LARGEST:g}", low, LARGEST).reshape(-1)
         for name, (group, low) in groups.items()
     )
-    v1, v2, e, kappa, inverse_m2 = (a.reshape(-1) for a in (v1, v2, e, kappa, inverse_m2))
+    v2, e, kappa, inverse_m2 = (a.reshape(-1) for a in (v2, e, kappa, inverse_m2))
     impacts = Impacts(ratio, beta, coupling, zeta2, mu, e)
-    return v1, v2, coupling, 1 / inverse_m2, e, kappa, impacts
+    return v2, 1 / inverse_m2, e, kappa, impacts
 
 
 def _given_up(impacts: Impacts, unsolved: Integers) -> str:

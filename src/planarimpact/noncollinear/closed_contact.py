@@ -69,6 +69,14 @@ class ClosedPhase(NamedTuple):
             velocity * cosine - amplitude_ratio / self.factor * friction * sine,
         )
 
+    def impulses(self, time: Array) -> Array:
+        """Impulses of F and of the mean of N up to a time: an array of shape (2, n)."""
+        beta, coupling, zeta2, *_ = self.groups
+        rate = np.sqrt(self.factor * (beta - coupling * coupling) / zeta2)
+        rise = self.factor * self.state.velocity / zeta2 / rate * 2 * np.sin(rate * time / 2) ** 2
+        friction = (self.state.friction * np.sin(rate * time) + rise) / rate
+        return np.stack([friction, coupling * friction])
+
 
 class ClosedCourse(NamedTuple):
     """The course of contacts that are held closed, arrays of shape (n,).

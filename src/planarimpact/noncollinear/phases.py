@@ -200,16 +200,15 @@ class Stick(NamedTuple):
         rate_p, rate_q = np.sqrt(square_p), np.sqrt(square_q)
         n, y = state.normal, state.approach
         force, force_rate = scale * state.friction, state.velocity / zeta  # F scale, its derivative
-        p = cosine * n - sine * force, (cosine * y - sine * force_rate) / rate_p
-        q = sine * n + cosine * force, (sine * y + cosine * force_rate) / rate_q
-        sizes = tuple(
-            n_share * np.hypot(n, y / rate) + f_share * np.hypot(force, force_rate / rate)
-            for n_share, f_share, rate in (
-                (cosine, np.abs(sine), rate_p),
-                (np.abs(sine), cosine, rate_q),
-            )
+        p, q = rotated(n, force, cosine, sine)
+        p_rate, q_rate = rotated(y, force_rate, cosine, sine)
+        n_share, f_share = cosine, np.abs(sine)
+        sizes = (
+            n_share * np.hypot(n, y / rate_p) + f_share * np.hypot(force, force_rate / rate_p),
+            f_share * np.hypot(n, y / rate_q) + n_share * np.hypot(force, force_rate / rate_q),
         )
-        return cls(cosine, sine, scale, zeta, rate_p, rate_q, p, q, sizes)
+        modes = (p, p_rate / rate_p), (q, q_rate / rate_q)
+        return cls(cosine, sine, scale, zeta, rate_p, rate_q, *modes, sizes)
 
     def at(self, time: Array) -> State:
         """States at scaled times: one for each contact, or many for one contact."""
@@ -219,9 +218,25 @@ class Stick(NamedTuple):
         q = self.q[0] * cos_q + self.q[1] * sin_q
         p_rate = self.rate_p * (self.p[1] * cos_p - self.p[0] * sin_p)
         q_rate = self.rate_q * (self.q[1] * cos_q - self.q[0] * sin_q)
-        return State(
-            self.cosine * p + self.sine * q,
-            self.cosine * p_rate + self.sine * q_rate,
-            (self.cosine * q - self.sine * p) / self.scale,
-            self.zeta * (self.cosine * q_rate - self.sine * p_rate),
+        friction, normal = rotated(q, p, self.cosine, self.sine)
+        velocity, approach = rotated(q_rate, p_rate, self.cosine, self.sine)
+        return State(normal, approach, friction / self.scale, self.zeta * velocity)
+
+    def impulses(self, time: Array) -> tuple[Array, Array]:
+        """Impulses of F and N up to a scaled time."""
+        p, q = (
+            (cos * np.sin(rate * time) + sin * 2 * np.sin(rate * time / 2) ** 2) / rate
+            for rate, (cos, sin) in ((self.rate_p, self.p), (self.rate_q, self.q))
         )
+        friction, normal = rotated(q, p, self.cosine, self.sine)
+        return friction / self.scale, normal
+
+
+def rotated(one: Array, other: Array, cosine: Array, sine: Array) -> tuple[Array, Array]:
+    """Two coordinates in axes rotated by an angle.
+
+    Its cosine is 1 - sine half_tangent: with the rounded cosine as a factor the coordinates, and
+    their energy, would grow or shrink alike in each of thousands of phases.
+    """
+    half_tangent = sine / (1 + cosine)
+    return one - sine * (other + half_tangent * one), other + sine * (one - half_tangent * other)

@@ -33,10 +33,13 @@ class Outcome(NamedTuple):
     """Results of impacts so far, arrays of shape (n,), filled in place.
 
     `given_up` marks impacts with too many phases or oscillations: they have no result.
+    Impulses are sums: the change of velocity has too few digits for them where C^2 is near beta.
     """
 
     velocity: Array
     approach: Array
+    friction_impulse: Array
+    normal_impulse: Array
     peak_friction: Array
     peak_normal: Array
     friction_work: Array
@@ -76,7 +79,7 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     """Solve impacts; the phases of a single impact are appended to `trace` in order."""
     size = impacts.velocity.size
     outcome = Outcome._make(
-        [*np.zeros((6, size)), np.zeros(size, np.uint8), *np.zeros((2, size), bool)]
+        [*np.zeros((8, size)), np.zeros(size, np.uint8), *np.zeros((2, size), bool)]
     )
     contacts = _start(impacts)
     for _ in range(MOST_PHASES):
@@ -113,14 +116,9 @@ def _start(impacts: Impacts) -> Contacts:
 
 def _groups(impacts: Impacts, chosen: Integers, unloading: Booleans) -> Groups:
     """Groups of the chosen impacts, with the time scale of loading or unloading."""
-    e = np.maximum(impacts.restitution[chosen], SMALLEST_TIME_SCALE)
-    return Groups(
-        impacts.mass_ratio[chosen],
-        impacts.coupling[chosen],
-        impacts.stiffness_ratio[chosen],
-        impacts.friction[chosen],
-        np.where(unloading, e, 1.0),
-    )
+    _, *groups, e = (field[chosen] for field in impacts)
+    time_scale = np.where(unloading, np.maximum(e, SMALLEST_TIME_SCALE), 1.0)
+    return Groups._make([*groups, time_scale])
 
 
 def _next_phase(
@@ -192,6 +190,8 @@ def _slip_phase(
     outcome.friction_work[impact] += slip.work(impulse)
     duration = slip.duration(impulse, after.normal)
     outcome.duration[impact] += groups.time_scale * duration
+    outcome.normal_impulse[impact] += groups.time_scale * impulse
+    outcome.friction_impulse[impact] += groups.time_scale * contacts.direction * mu * impulse
     outcome.jams[impact] |= (slip.inverse_mass < 0) & (impulse > 0)
     _record(trace, slip, contacts, duration)
     contacts_after = contacts._replace(
@@ -231,10 +231,12 @@ def _stick_phase(
         np.where(slides, direction * mu * normal, after.friction),
         np.where(friction_turns, 0.0, after.velocity),
     )
-    outcome.peak_friction[impact] = np.maximum(
-        outcome.peak_friction[impact], np.abs(after.friction)
-    )
+    largest = np.maximum(outcome.peak_friction[impact], np.abs(after.friction))
+    outcome.peak_friction[impact] = largest
     outcome.duration[impact] += groups.time_scale * time
+    friction_impulse, normal_impulse = stick.impulses(time)
+    outcome.friction_impulse[impact] += groups.time_scale * friction_impulse
+    outcome.normal_impulse[impact] += groups.time_scale * normal_impulse
     _record(trace, stick, contacts, time)
     contacts_after = contacts._replace(
         state=after,
@@ -310,6 +312,9 @@ def _closed_course(
     outcome.peak_friction[impact] = np.maximum(outcome.peak_friction[impact], course.peak_friction)
     outcome.friction_work[impact] += course.work
     outcome.duration[impact] += course.stick_time + course.creep_time
+    impulses = course.stick.impulses(course.stick_time) + course.creep.impulses(course.creep_time)
+    outcome.friction_impulse[impact] += impulses[0]
+    outcome.normal_impulse[impact] += impulses[1]
     outcome.jams[impact] |= course.slips_first | ~course.reloads
     if kept.size:
         _record(trace, course.stick, closed, course.stick_time)

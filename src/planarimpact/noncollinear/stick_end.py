@@ -24,7 +24,7 @@ import numpy as np
 
 from planarimpact.ground.angles import sin_cos
 from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
+from planarimpact.noncollinear.phases import Groups, Slip, State, Stick, rotated
 
 NOISE = 1e-15
 # Added to the noise, smaller than any force that matters: so a function that is 0 throughout has no
@@ -86,8 +86,8 @@ def functions_of(
     normal_rate = np.stack([zero, zero, zero, 1.0 * loading, -1.0 * falls])
     friction_rate = np.stack([zero, zero, signed_zeta, zero, zero])
     # The same of the modes, and of their derivatives over the rate.
-    in_p, in_q = _in_modes(normal, friction, cosine, sine)
-    in_p_rate, in_q_rate = _in_modes(normal_rate, friction_rate, cosine, sine)
+    in_p, in_q = rotated(normal, friction, cosine, sine)
+    in_p_rate, in_q_rate = rotated(normal_rate, friction_rate, cosine, sine)
     in_p_rate, in_q_rate = in_p_rate * stick.rate_p, in_q_rate * stick.rate_q
     (p_cos, p_sin), (q_cos, q_sin) = stick.p, stick.q
     p_size, q_size = stick.sizes
@@ -103,11 +103,6 @@ def functions_of(
         stick.rate_p,
         stick.rate_q,
     )
-
-
-def _in_modes(normal: Array, friction: Array, cosine: Array, sine: Array) -> tuple[Array, Array]:
-    """Coefficients of p and q, from those of N and F scale."""
-    return normal * cosine - friction * sine, normal * sine + friction * cosine
 
 
 def _square_and_load(
