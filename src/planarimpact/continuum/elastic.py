@@ -43,22 +43,6 @@ def rebound(
     return velocity, peak, impulse * (x / 2 + velocity / 2), regime, reversals
 
 
-def velocity(x: Array, beta: Array, zeta2: Array, steps: int, extrapolate: bool) -> Array:
-    """Velocity at separation with an even number of steps, shape (n,), whatever its error.
-
-    To extrapolate is to solve with half the steps too, and to take away the part of the error that
-    falls with their square.
-    """
-    at_separation, _, _, regime, _ = _at_limits(x, beta, zeta2)
-    stepped = np.flatnonzero(regime == _UNSOLVED)
-    groups = x[stepped], beta[stepped], zeta2[stepped]
-    at_separation[stepped] = _integrate(groups, steps)[0][0]
-    if extrapolate:
-        coarse = _integrate(groups, steps // 2)[0][0]
-        at_separation[stepped] += (at_separation[stepped] - coarse) / 3
-    return at_separation
-
-
 def contact(x: Array, beta: Array, zeta2: Array, tolerance: Array) -> list[Array]:
     """Phase, friction, velocity and radius of stick over one contact, each of shape (m,)."""
     slid = tangential_motion.gross_slip(x, beta, zeta2)
