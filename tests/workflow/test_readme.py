@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from planarimpact.__main__ import main
-from stronge1994 import csv_tables
+from stronge1994 import csv_tables, reference_data
 from stronge1994.curve_names import is_of_paper
-from stronge1994.plan import readmes
+from stronge1994.plan import figures
 from stronge1994.verdict_tables import figure_table
 
 ROOT = Path(__file__).parents[2]
@@ -29,6 +29,8 @@ EXAMPLES = [
 NOT_THERE = re.compile(
     r"(?<!stronge1994/)figures/(?!README|preview)|rubber_sphere.csv$|fig10|data/sliding_line|marble"
 )
+# A table, between its marks.
+MARKED = r"<!-- (?:figures|sources) -->\n(.*?)<!-- end -->"
 
 
 @pytest.fixture
@@ -89,10 +91,29 @@ def sections(path):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
+def with_tables():
+    """READMEs as they are, and with the tables that their folders ask for."""
+    pictures = [(f"`{name}`", content["shows"]) for name, content in figures.stated().items()]
+    sources = [
+        (f"`{path.parent.name}`", content["holds"], content["made"])
+        for path in sorted(ROOT.glob("data/*/source.yaml"))
+        for content in [reference_data.load_yaml(path)]
+    ]
+    tables = {
+        "figures": [("figure", "what it shows"), ("---",) * 2, *pictures],
+        "data": [("source", "what it holds", "how it was made"), ("---",) * 3, *sources],
+    }
+    for folder, rows in tables.items():
+        table = "".join(f"| {' | '.join(row)} |\n" for row in rows)
+        path = ROOT / folder / "README.md"
+        there = path.read_text(encoding="utf-8")
+        start, end = re.search(MARKED, there, flags=re.S).span(1)
+        yield path, there, there[:start] + table + there[end:]
+
+
 def test_figures_and_sources_are_listed_as_their_folders_say():
     """If not, this writes them anew, for somebody to look at."""
-    for path, text in readmes.texts().items():
-        there = path.read_text(encoding="utf-8")
+    for path, there, text in with_tables():
         if there != text:
             path.write_text(text, encoding="utf-8")
         assert there == text, f"{path}: written anew"
