@@ -5,8 +5,9 @@
 - `yielding`: elastic-plastic. Below e = 1 this is the loss "plastic".
 
 The functions of `kelvin_voigt` and `yielding` are those of the law alone: restitution, its inverse,
-and the largest force. `planarimpact.bodies` gives them in SI units. `planarimpact.continuum` adds
-the springs of micro-slip.
+and the largest force. They take and return arrays of one shape; they take a restitution from
+`LEAST_RESTITUTION` to 1 where they say nothing else. `planarimpact.bodies` gives them in SI units.
+`planarimpact.continuum` adds the springs of micro-slip.
 
 Units, except in `hertz`: E* = 1, R = 1, m2 = 1, |v2(0)| = 1, so that Hertz's force is
 (4/3) d^(3/2) at the approach d. The unit of length is (m2 v2(0)^2/(E* R^(1/2)))^(2/5).

@@ -2,9 +2,9 @@
 
 The angle `phase` is 0 at contact, pi/2 at maximum compression and pi at separation. Its sine is the
 radius of contact. As a function of this angle the motion is smooth, also at both ends of the
-contact, where forces vanish like a power of time that is no whole number. Units: radius a_max,
-approach d_max, velocity |v2(0)|, force its largest value, time d_max/|v2(0)| except where t_c is
-named.
+contact, where forces vanish like a power of time that is no whole number. All functions take and
+return numbers or arrays. Units: radius a_max, approach d_max, velocity |v2(0)|, force its largest
+value, time d_max/|v2(0)| except where t_c is named.
 """
 
 import math
@@ -29,15 +29,6 @@ LARGEST_FORCE = PEAK_FORCE / FULL**0.4
 def velocity(phase: ArrayLike) -> Array:
     """Normal velocity of approach: 1 at contact, -1 at separation.
 
-    Parameters
-    ----------
-    phase : array_like
-        0 to pi.
-
-    Returns
-    -------
-    ndarray of float64 or float
-
     Notes
     -----
     Energy gives v^2 = 1 - d^(5/2), d = sin(phase)^2. The factor cos(phase)^2 is taken out, so
@@ -54,15 +45,6 @@ def velocity(phase: ArrayLike) -> Array:
 @checks.default_errors
 def state(phase: ArrayLike) -> tuple[Array, Array, Array]:
     """Radius of contact, time for a unit of phase dt/dphase, and `velocity` at once.
-
-    Parameters
-    ----------
-    phase : array_like
-        0 to pi.
-
-    Returns
-    -------
-    radius, pace, velocity : ndarray of float64 or float
 
     Examples
     --------
@@ -82,16 +64,7 @@ def _slowness(radius: Array) -> Array:
 
 @checks.default_errors
 def phase_at(velocity: ArrayLike) -> Array:
-    """Phase at a normal velocity, the inverse of `velocity`.
-
-    Parameters
-    ----------
-    velocity : array_like
-        1 to -1.
-
-    Returns
-    -------
-    ndarray of float64 or float
+    """Phase at a normal velocity from 1 to -1, the inverse of `velocity`.
 
     Examples
     --------
@@ -108,15 +81,6 @@ def phase_at(velocity: ArrayLike) -> Array:
 @checks.default_errors
 def time(phase: ArrayLike) -> Array:
     """Time t/t_c: 0 at contact, 1 at maximum compression, 2 at separation.
-
-    Parameters
-    ----------
-    phase : array_like
-        0 to pi.
-
-    Returns
-    -------
-    ndarray of float64 or float
 
     Examples
     --------

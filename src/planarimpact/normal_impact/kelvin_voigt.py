@@ -44,17 +44,7 @@ SMALL_TERM = 1e-11
 
 
 def restitution(relaxation_time: Array) -> Array:
-    """Coefficient of restitution at a relaxation time.
-
-    Parameters
-    ----------
-    relaxation_time : ndarray, shape (m,)
-        0 to `SLOWEST`.
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        1 at 0, then falling.
+    """Coefficient of restitution at a relaxation time from 0 to `SLOWEST`: 1 at 0, then falling.
 
     Examples
     --------
@@ -66,17 +56,7 @@ def restitution(relaxation_time: Array) -> Array:
 
 
 def relaxation_time(restitution: Array) -> Array:
-    """Relaxation time of a coefficient of restitution, the inverse of `restitution`.
-
-    Parameters
-    ----------
-    restitution : ndarray, shape (m,)
-        From `normal_impact.LEAST_RESTITUTION` to 1.
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        Its `restitution` is the argument, to 1e-11.
+    """Relaxation time of a coefficient of restitution, the inverse of `restitution` to 1e-11.
 
     Examples
     --------
@@ -90,16 +70,8 @@ def relaxation_time(restitution: Array) -> Array:
 def largest_force(restitution: Array) -> Array:
     """Largest normal force, over that of an elastic impact (Hertz).
 
-    Parameters
-    ----------
-    restitution : ndarray, shape (m,)
-        From `normal_impact.LEAST_RESTITUTION` to 1.
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        It is least, 0.77, at e = 0.46, as damping shortens the approach. For smaller e the viscous
-        force at the start of contact is the largest. It has no bound as e approaches 0.
+    It is least, 0.77, at e = 0.46, as damping shortens the approach. For smaller e the viscous
+    force at the start of contact is the largest. It has no bound as e approaches 0.
 
     Examples
     --------
@@ -117,10 +89,6 @@ def _loss(restitution: Array) -> Array:
 @cache
 def series() -> Chebyshev:
     """Restitution against the root of the relaxation time, from 0 to the root of `SLOWEST`.
-
-    Returns
-    -------
-    Chebyshev
 
     Examples
     --------

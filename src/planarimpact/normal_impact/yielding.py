@@ -209,15 +209,7 @@ def elastic_velocity(depth: Array) -> Array:
 def largest_force(restitution: Array) -> Array:
     """Largest normal force, over that of an elastic impact (Hertz).
 
-    Parameters
-    ----------
-    restitution : ndarray, shape (m,)
-        From `normal_impact.LEAST_RESTITUTION` to 1.
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        It falls with restitution: spheres that yield are softer.
+    It falls with restitution: spheres that yield are softer.
 
     Examples
     --------
@@ -230,19 +222,7 @@ def largest_force(restitution: Array) -> Array:
 def restitution(yield_velocity: Array) -> Array:
     """Coefficient of restitution at a ratio of the yield velocity to the velocity of impact.
 
-    Parameters
-    ----------
-    yield_velocity : ndarray
-        v_y/v, 0 to 1.
-
-    Returns
-    -------
-    ndarray
-        Of the same shape.
-
-    Notes
-    -----
-    With the unloading of Thornton (1997) it is his Eq. 44.
+    The ratio v_y/v is 0 to 1. With the unloading of Thornton (1997) it is his Eq. 44.
 
     Examples
     --------
@@ -255,17 +235,9 @@ def restitution(yield_velocity: Array) -> Array:
 
 
 def yield_velocity(coefficient: Array) -> Array:
-    """Ratio of the yield velocity to the velocity of impact, the inverse of `restitution`.
+    """Ratio of the yield velocity to the velocity of impact, the inverse of `restitution` to 1e-15.
 
-    Parameters
-    ----------
-    coefficient : ndarray
-        Restitution, 0 to 1.
-
-    Returns
-    -------
-    ndarray
-        Of the same shape. Its `restitution` is the argument, to 1e-15.
+    The coefficient of restitution is 0 to 1.
 
     Examples
     --------
