@@ -106,9 +106,8 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
 
 def _refuse_name(file: Path, language: str) -> None:
     """Refuse a language, an ending of another one, or a name that functions in C cannot have."""
-    if not isinstance(language, str) or language not in LANGUAGES:
-        raise InputError(f"language = {checks.brief(language)}: allowed are {', '.join(LANGUAGES)}")
-    endings, name = LANGUAGES[language], file.parent / checks.in_ascii(file.name)
+    endings = LANGUAGES[checks.word("language", language, LANGUAGES)]
+    name = file.parent / checks.in_ascii(file.name)
     if file.suffix.lower() not in endings:
         raise InputError(f"{name}: allowed are names that end in {' or '.join(endings)}")
     if language == "c" and not IDENTIFIER.fullmatch(file.stem):

@@ -2,7 +2,7 @@
 
 import math
 import reprlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import partial
 from typing import Any
 
@@ -172,19 +172,23 @@ def restitution(value: ArrayLike) -> Array:
     return checked("restitution", value, "numbers from 0 to 1", 0, 1)
 
 
-def loss(value: str, allowed: tuple[str, ...]) -> str:
-    """Check the name of a loss: the law by which a contact loses normal energy where e < 1.
+def word(name: str, value: str, allowed: Collection[str]) -> str:
+    """Check a word: one of those that are allowed.
 
     Examples
     --------
-    >>> loss("magic", ("hysteretic", "viscous"))
+    >>> word("loss", "magic", ("hysteretic", "viscous"))
     Traceback (most recent call last):
     ...
     planarimpact.InputError: loss = 'magic': allowed are hysteretic, viscous
     """
     if isinstance(value, str) and value in allowed:
         return value
-    raise InputError(f"loss = {brief(value)}: allowed are {', '.join(allowed)}")
+    raise InputError(f"{name} = {brief(value)}: allowed are {', '.join(allowed)}")
+
+
+# The name of a loss: the law by which a contact loses normal energy where e < 1.
+loss = partial(word, "loss")
 
 
 def losses(value: Any, allowed: tuple[str, ...]) -> Array:

@@ -78,9 +78,7 @@ def get(name: str | Model) -> Model:
     """
     if isinstance(name, Model):
         return name
-    if not isinstance(name, str) or name not in MODELS:
-        raise checks.InputError(f"model = {checks.brief(name)}: allowed are {', '.join(MODELS)}")
-    return MODELS[name]
+    return MODELS[checks.word("model", name, MODELS)]
 
 
 def rebound(

@@ -32,7 +32,6 @@ import numpy as np
 
 from planarimpact.ground import checks
 from planarimpact.ground.arrays import Array, ArrayLike, Booleans
-from planarimpact.ground.checks import InputError
 from planarimpact.noncollinear.configuration import InverseMass, checked_impact, refuse_overflow
 
 
@@ -114,14 +113,13 @@ def rebound(
     >>> [round(float(result.normal), 3) for result in (energetic, newton)]
     [-0.5, -0.5]
     """
-    if not isinstance(law, str) or law not in list(Law):
-        raise InputError(f"law = {checks.brief(law)}: allowed are {', '.join(Law)}")
+    law = Law(checks.word("law", law, list(Law)))
     v1, v2, mu, e, inverse_m1, c, inverse_m2 = checked_impact(
         tangential, normal, inverse_mass, friction, restitution
     )
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
         beta, coupling = inverse_m1 / inverse_m2, c / inverse_m2
-        *fields, jams = _rebound(v1 / v2, mu, e, beta, coupling, Law(law))
+        *fields, jams = _rebound(v1 / v2, mu, e, beta, coupling, law)
         units = v2, v2, v2 / inverse_m2, v2 / inverse_m2
         fields = [(field * unit)[()] for field, unit in zip(fields, units, strict=True)]
     refuse_overflow(ImpulsiveRebound._fields, fields)
