@@ -22,7 +22,6 @@ from planarimpact.ground.results import Rebound, Regime
 # Entries of the systems of equations that are solved together: this bounds the memory.
 CELLS = 2**18
 MOST_CIRCLES = 1000
-MOST_STEPS = 10**7
 MOST_TRIALS = 100
 # Fewest steps in a radian of the tangential oscillation. Below some 0.6 they are unstable.
 STEPS_A_RADIAN = 1
@@ -88,7 +87,7 @@ def rebound(
     circles = _checked_circles(circles)
     with np.errstate(over="ignore"):
         needed = STEPS_A_RADIAN * np.pi * (np.sqrt(beta) / np.sqrt(zeta2))
-    steps = checks.explicit_steps(steps, needed, 3, MOST_STEPS)
+    steps = checks.explicit_steps(steps, needed)
     x, beta, zeta2 = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2))
     together = max(1, CELLS // circles**2)
     cuts = range(together, x.size, together)

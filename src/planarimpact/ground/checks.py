@@ -18,7 +18,8 @@ LEAST_INCIDENCE = 1e-100
 # Largest error of the length of a normal that is taken for one of rounding, float32 too: 1e-6, with
 # room for the rounding of the length itself.
 LENGTH_ERROR = 1.000001e-6
-# Largest count of samples, circles or points: their tables still fit into memory.
+# Largest count of samples, points or steps: tables still fit into memory, and so many steps take a
+# few minutes.
 MOST = 10_000_000
 
 # Decorates all functions that users call. With NumPy's defaults no answer depends on what the
@@ -296,27 +297,27 @@ def count(name: str, value: int, least: int, most: int = MOST) -> int:
     return int(value)
 
 
-def explicit_steps(steps: int, needed: Numbers, least: int, most: int) -> int:
-    """Check a number of explicit steps: from `least` to `most`, and as many as each impact needs.
+def explicit_steps(steps: int, needed: Numbers) -> int:
+    """Check a number of explicit steps: from 3 to `MOST`, and as many as each impact needs.
 
     Examples
     --------
-    >>> explicit_steps(64, 100.0, 3, 10**7)
+    >>> explicit_steps(64, 100.0)
     Traceback (most recent call last):
     ...
     planarimpact.InputError: steps = 64: allowed are integers from 100 to 10000000 (with \
 fewer explicit steps the tangential oscillation is unstable)
     """
-    steps = count("steps", steps, least, most)
-    fewest = float(np.max(needed, initial=least))
-    if not fewest <= most:
+    steps = count("steps", steps, 3)
+    fewest = float(np.max(needed, initial=3))
+    if not fewest <= MOST:
         raise InputError(
             f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
-            f"are needed, or the tangential oscillation is unstable; allowed are up to {most}"
+            f"are needed, or the tangential oscillation is unstable; allowed are up to {MOST}"
         )
     if steps < fewest:
         raise InputError(
-            f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {most} (with fewer "
+            f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {MOST} (with fewer "
             "explicit steps the tangential oscillation is unstable)"
         )
     return steps

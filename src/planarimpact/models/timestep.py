@@ -72,8 +72,6 @@ from planarimpact.ground.results import Rebound, Regime
 from planarimpact.normal_impact import hertz
 
 STEPS = 64
-# So many steps take a few minutes.
-MOST_STEPS = 10**7
 # Impacts solved together, as in `planarimpact.lumped`.
 CHUNK = 16384
 # Explicit steps are stable while the phase of an oscillation grows by no more than this [rad].
@@ -153,7 +151,7 @@ def rebound(
     with np.errstate(over="ignore"):
         frequency = math.sqrt(stiffest) * (np.sqrt(beta) / np.sqrt(zeta2))
         angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
-    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE, 3, MOST_STEPS)
+    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE)
     x = np.abs(signed).reshape(-1)
     velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
     regime = np.empty(x.size, np.uint8)
