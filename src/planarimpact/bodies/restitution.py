@@ -9,18 +9,15 @@ Symbols beside those of `planarimpact.bodies`: v_y yield speed, and a_y the radi
 yield begins.
 """
 
-from typing import TypeVar
-
 import numpy as np
 
 from planarimpact.bodies.materials import hertz_peak_force
 from planarimpact.bodies.quantities import OutOfRange, all_positive, in_range, quietly
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.ground.arrays import Array, ArrayLike, Number
 from planarimpact.ground.checks import checked, not_negative, positive
 from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, LOSSES, kelvin_voigt, yielding
 
-_Number = TypeVar("_Number", float, Array)
 # Relative rounding error of a relaxation time that `relaxation_time` returns.
 ROUNDING = 1e-12
 
@@ -257,14 +254,12 @@ def _checked_impact(
     )
 
 
-def time_unit(v2: _Number, m2: _Number, modulus: _Number, radius: _Number) -> _Number:
+def time_unit(v2: Number, m2: Number, modulus: Number, radius: Number) -> Number:
     """L/v2 [s] of arrays or floats that are checked, of powers that do not overflow before it."""
     return m2**0.4 / modulus**0.4 / radius**0.2 / v2**0.2
 
 
-def unchecked_yield_speed(
-    pressure: _Number, m2: _Number, modulus: _Number, radius: _Number
-) -> _Number:
+def unchecked_yield_speed(pressure: Number, m2: Number, modulus: Number, radius: Number) -> Number:
     """v_y [m/s] of arrays or floats that are checked; it may overflow."""
     relative_radius = np.pi / 2 * (pressure / modulus)  # a_y/R
     return np.sqrt(16 / 15 * modulus / m2 * radius) * radius * relative_radius**2.5

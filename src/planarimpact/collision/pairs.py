@@ -7,7 +7,7 @@ import numpy as np
 from planarimpact import bodies, normal_impact
 from planarimpact.bodies import Material
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans
+from planarimpact.ground.arrays import LARGEST, SMALLEST, Array, ArrayLike, Booleans
 from planarimpact.ground.checks import InputError
 from planarimpact.normal_impact import LOSSES
 
@@ -17,7 +17,6 @@ RESTITUTION_FROM: dict[str, str | None] = {"restitution": None}
 RESTITUTION_FROM |= {law.property: loss for loss, law in normal_impact.LAWS.items()}
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *RESTITUTION_FROM)
 _ARRAYS = (*_FIELDS, "plastic")
-LARGEST = float(np.finfo(float).max)
 # Sizes of numbers that `one_impact` computes with. No product that it needs leaves the range of
 # numbers.
 PLAIN_LEAST, PLAIN_MOST = 1e-25, 1e25
@@ -108,7 +107,7 @@ what takes the energy: viscous, plastic
         laws = {
             "restitution": _law("restitution", restitution, "numbers from 0 to 1", 0, 1),
             "relaxation_time": _law("relaxation_time", relaxation_time, "numbers from 0", 0),
-            "yield_pressure": _law("yield_pressure", yield_pressure, "numbers above 0", 5e-324),
+            "yield_pressure": _law("yield_pressure", yield_pressure, "numbers above 0", SMALLEST),
         }
         stiffness = _stiffness(materials, stiffness_ratio, effective_modulus)
         mu = checks.not_negative("friction", friction)

@@ -5,17 +5,19 @@ scalars, it returns a scalar of NumPy, which has the methods and operators of an
 checker both are arrays.
 """
 
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["SMALLEST", "Array", "ArrayLike", "Booleans", "Integers", "Numbers"]
+__all__ = ["Array", "ArrayLike", "Booleans", "Integers", "Number", "Numbers", "LARGEST", "SMALLEST"]
 
 Array: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.integer]
 Booleans: TypeAlias = NDArray[np.bool_]
 # Arguments of formulas that do not check them: a number, or an array of numbers.
 Numbers: TypeAlias = float | Array
-# The least number above 0.
-SMALLEST = float(np.finfo(float).smallest_subnormal)
+# The same, of formulas that return what they take.
+Number = TypeVar("Number", float, Array)
+# The least number above 0, and the largest one.
+SMALLEST, LARGEST = float(np.finfo(float).smallest_subnormal), float(np.finfo(float).max)

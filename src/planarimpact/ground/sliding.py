@@ -31,16 +31,12 @@ x - beta + (beta - zeta^2) v, linear in v. It stays positive if x > zeta^2 (at v
 x > beta + e (beta - zeta^2) (at v = -e).
 """
 
-from typing import TypeVar
-
 import numpy as np
 
-from planarimpact.ground.arrays import SMALLEST, Array, Numbers
-
-_Number = TypeVar("_Number", float, Array)
+from planarimpact.ground.arrays import SMALLEST, Array, Number, Numbers
 
 
-def change(beta: _Number, e: float | _Number) -> _Number:
+def change(beta: Number, e: float | Number) -> Number:
     """Fall of the tangential velocity, (1 + e) beta.
 
     Examples
@@ -51,7 +47,7 @@ def change(beta: _Number, e: float | _Number) -> _Number:
     return (1 + e) * beta
 
 
-def velocity(x: Array, beta: _Number, e: float | _Number) -> Array:
+def velocity(x: Array, beta: Number, e: float | Number) -> Array:
     """Velocity at separation, x - (1 + e) beta.
 
     Examples
@@ -62,7 +58,7 @@ def velocity(x: Array, beta: _Number, e: float | _Number) -> Array:
     return x - change(beta, e)
 
 
-def work(x: Array, beta: _Number, e: float | _Number) -> Array:
+def work(x: Array, beta: Number, e: float | Number) -> Array:
     """Work of friction: its impulse times the mean of the velocities before and after.
 
     Examples
@@ -73,7 +69,7 @@ def work(x: Array, beta: _Number, e: float | _Number) -> Array:
     return (1 + e) * (x - change(beta, e) / 2)
 
 
-def viscous_work(x: Array, beta: _Number, zeta2: _Number, e: float | _Number) -> Array:
+def viscous_work(x: Array, beta: Number, zeta2: Number, e: float | Number) -> Array:
     """Work of friction where the springs are viscous: they take a part of what the body loses.
 
     Friction mu F2 acts on the velocity w - zeta^2 v of the springs, w = x - beta (1 - v), while the

@@ -10,7 +10,7 @@ import numpy as np
 
 from planarimpact.collision import LOSSES, RESTITUTION_FROM
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, Booleans
+from planarimpact.ground.arrays import LARGEST, SMALLEST, Array, Booleans
 from planarimpact.ground.checks import InputError
 
 if TYPE_CHECKING:
@@ -19,20 +19,17 @@ if TYPE_CHECKING:
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 
-MOST, ABOVE_0 = float(np.finfo(float).max), 5e-324
-
-
 class Column(NamedTuple):
     """A column: unit, meaning, the text of what is allowed, and the range of its numbers."""
 
     unit: str
     meaning: str = ""
     allowed: str = "finite numbers"
-    low: float = -MOST
-    high: float = MOST
+    low: float = -LARGEST
+    high: float = LARGEST
 
 
-_above = partial(Column, allowed="finite numbers above 0", low=ABOVE_0)
+_above = partial(Column, allowed="finite numbers above 0", low=SMALLEST)
 _from_0 = partial(Column, allowed="finite numbers from 0", low=0)
 AXES = "xyz"
 
@@ -46,7 +43,7 @@ BODY = {
 }
 # Numbers of the other body may be infinite, but for its density and Poisson's ratio.
 OTHER = {f"other_{name}": column for name, column in BODY.items()} | {
-    f"other_{name}": Column(BODY[name].unit, "", "numbers above 0, or inf", ABOVE_0, np.inf)
+    f"other_{name}": Column(BODY[name].unit, "", "numbers above 0, or inf", SMALLEST, np.inf)
     for name in ("radius", "mass", "gyration", "young_modulus")
 }
 PAIR = {

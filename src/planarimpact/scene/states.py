@@ -13,7 +13,7 @@ from planarimpact import bodies
 from planarimpact.bodies import Body, Material
 from planarimpact.collision import LOSSES, RESTITUTION_FROM, Pair, mechanics
 from planarimpact.collision.mechanics import Impacts, State
-from planarimpact.ground.arrays import Array
+from planarimpact.ground.arrays import LARGEST, Array
 from planarimpact.scene.columns import AXES, PLANE
 
 
@@ -93,7 +93,7 @@ def _materials(values: dict[str, Array]) -> tuple[Material, Material | None]:
         return material, None
     young, poisson = values["other_young_modulus"], values["other_poisson_ratio"]
     # A rigid counterbody adds no compliance. A very large Young's modulus has the same effect.
-    young = np.where(np.isinf(young), np.finfo(float).max, young)
+    young = np.where(np.isinf(young), LARGEST, young)
     return material, Material(young, poisson)
 
 

@@ -16,12 +16,12 @@ from functools import cache
 from importlib import resources
 from itertools import pairwise
 from math import sqrt
-from typing import IO, Any, NamedTuple, TypeVar
+from typing import IO, Any, NamedTuple
 
 import numpy as np
 
 from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.ground.arrays import Array, Booleans, Integers, Number
 from planarimpact.normal_impact import hertz, kelvin_voigt, yielding
 
 # Bounds of b and e: a little wider than those that `spheres` admits.
@@ -39,8 +39,6 @@ ROOTS = {
 NEARLY = 1 - 2.0**-50
 # B-splines that are not zero within an interval.
 ORDER = 4
-
-_Number = TypeVar("_Number", float, Array)
 
 
 class Panel(NamedTuple):
@@ -212,7 +210,7 @@ def limits_at(table: Table, u: Array) -> Array:
     return np.stack([_between(limit, index, part) for limit in table.limits])
 
 
-def over_b(b: _Number) -> _Number:
+def over_b(b: Number) -> Number:
     """u, from 0 to 1 over b."""
     return (b - B_LEAST) / (B_MOST - B_LEAST)
 
@@ -350,7 +348,7 @@ def spline(coefficients: Array, base: Integers, weights: Sequence[Sequence[Array
     return outer
 
 
-def _weights(x: _Number) -> list[_Number]:
+def _weights(x: Number) -> list[Number]:
     """The four B-splines of an interval at x, from 0 to 1 in it."""
     left = 1 - x
     return [
