@@ -83,16 +83,11 @@ def read(path: Path) -> Curves:
 
 
 def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
-    """Rows of a table, as `rows_of`; `Failed` says why a job has made no table."""
+    """Rows of a table, as `numbered_rows`; `Failed` says why a job has made no table."""
     with open(path, newline="", encoding="utf-8") as file:
         text = file.read()
     if text.startswith("error\n"):
-        raise Failed(rows_of(text, path)[0]["error"])
-    return rows_of(text, path, columns)
-
-
-def rows_of(text: str, path: Path, columns: Iterable[str] = ()) -> list[Row]:
-    """Rows of the text of a table, as `numbered_rows`."""
+        raise Failed(numbered_rows(text, path)[0][1]["error"])
     return [row for _, row in numbered_rows(text, path, columns)]
 
 
