@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground import csv_text
+from planarimpact.ground import checks, csv_text
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Columns
 from stronge1994.reference_data import strict_yaml
@@ -156,7 +156,7 @@ def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
         allowed = f"; allowed are {', '.join(known)}" if "unexpected" in errors[0].message else ""
         if errors[0].validator == "minLength":
             allowed = f"; allowed are texts of {errors[0].validator_value} characters or more"
-        message = f"{where}: {errors[0].message}".encode("ascii", "backslashreplace").decode()
+        message = checks.in_ascii(f"{where}: {errors[0].message}")
         raise SourceError(f"{name}: {message}{allowed}")
     for where, value in _leaves(document):
         if isinstance(value, float) and not math.isfinite(value):
