@@ -1,5 +1,3 @@
 """Fig. 3: forces and tangential velocity against time, for a contact that sticks first."""
 
-from stronge1994.figures.shared.curves.histories import curves
-
-__all__ = ["curves"]
+from stronge1994.figures.shared.curves.histories import curves as curves
