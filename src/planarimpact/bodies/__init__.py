@@ -116,12 +116,6 @@ __all__ = [
     "yield_speed",
 ]
 
-_angle = partial(
-    checked,
-    allowed="degrees between -90 and 90, exclusive",
-    low=np.nextafter(-90, 0),
-    high=np.nextafter(90, 0),
-)
 # The groups scale tangential velocities by mu: at mu = 0 they no longer hold v1.
 _friction = partial(
     positive, "friction", allowed="finite numbers above 0 (without friction v1 stays as it is)"
@@ -219,7 +213,8 @@ def incidence_from_angle(theta_deg: ArrayLike, friction: ArrayLike) -> Array:
     >>> round(float(incidence_from_angle(45.0, 0.5)), 12)
     2.0
     """
-    theta = _angle("theta_deg", theta_deg)
+    rule, most = "degrees between -90 and 90, exclusive", np.nextafter(90, 0)
+    theta = checked("theta_deg", theta_deg, rule, -most, most)
     theta, mu = checks.broadcast(theta_deg=theta, friction=_friction(friction))
     with np.errstate(over="ignore"):  # refused below
         return checks.incidence(np.tan(np.radians(theta)) / mu)[()]
