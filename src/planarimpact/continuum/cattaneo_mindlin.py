@@ -1,8 +1,9 @@
 """Closed forms of partial slip under a constant normal force (Cattaneo 1938, Mindlin 1949).
 
 A Hertz contact is pushed sideways, back and forth, by less than it takes to slip as a whole. These
-forms check `micro_slip` and `annuli`. Units: force mu times the normal force, radius that of the
-contact, displacement the one at which the contact slips as a whole, zeta^2 mu times the approach.
+forms check `micro_slip` and `annuli`. An argument that is not finite or out of its range is an
+`InputError`. Units: force mu times the normal force, radius that of the contact, displacement the
+one at which the contact slips as a whole, zeta^2 mu times the approach.
 """
 
 import numpy as np
@@ -24,11 +25,6 @@ def friction(displacement: ArrayLike) -> Array:
     -------
     ndarray of float64 or float
         1 - (1 - |u|)^(3/2) with the sign of u.
-
-    Raises
-    ------
-    InputError
-        If an argument is not finite.
 
     Examples
     --------
@@ -53,11 +49,6 @@ def unloading(displacement: ArrayLike, turned_at: ArrayLike) -> Array:
     Returns
     -------
     ndarray of float64 or float
-
-    Raises
-    ------
-    InputError
-        If an argument is not finite or out of its range.
 
     Notes
     -----
@@ -95,11 +86,6 @@ def stick_radius(force: ArrayLike) -> Array:
     -------
     ndarray of float64 or float
         (1 - |T|)^(1/3).
-
-    Raises
-    ------
-    InputError
-        If an argument is not finite or out of its range.
 
     Examples
     --------
