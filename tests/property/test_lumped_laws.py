@@ -186,8 +186,12 @@ def test_loss_and_compliance_vanish_without_a_jump(impacts, loss):
 
 def test_one_and_many_and_history_agree(impacts, everywhere, found, loss):
     """Along a contact friction keeps its limit, and the tangential energy never grows."""
-    _, beta, zeta2, e = everywhere
-    few = np.flatnonzero(e * np.sqrt(beta) <= 300 * np.sqrt(zeta2))
+    x, beta, zeta2, e = everywhere
+    few = e * np.sqrt(beta) <= 300 * np.sqrt(zeta2)
+    if loss != "viscous":  # what sticks in compression needs digits of friction in a history
+        unloading = e if loss == "unloading-stiffness" else 1.0
+        few &= (x == 0) | (x >= beta) | (np.sqrt(beta) <= 1e9 * unloading * np.sqrt(zeta2))
+    few = np.flatnonzero(few)
     extremes = few[few >= impacts.shape[1]]
     for lane in (*few[:: few.size // 120], *extremes[:: extremes.size // 60]):
         x, beta, zeta2, e = point = tuple(map(float, everywhere[:, lane]))
