@@ -1,4 +1,4 @@
-"""The continuum: many impacts, those without an answer, and the restitution of spheres that yield."""
+"""The continuum: many impacts, those without an answer, restitution of spheres that yield."""
 
 import numpy as np
 import pytest
