@@ -18,62 +18,6 @@ import numpy as np
 from planarimpact import export
 
 COUNT, REPEATS = 100_000, 7
-# A row has normal, velocity, spin, stiffness ratio, restitution and loss.
-C = """\
-#include <stdio.h>
-#include <time.h>
-#include "balls.h"
-static double x[COUNT][12];
-int main(void)
-{
-    FILE *file = fopen("collisions", "rb");
-    if (!file || fread(x, sizeof *x, COUNT, file) != COUNT)
-        return 1;
-    struct balls_body ball = balls_solid_sphere(0.01, 0.01);
-    double best = 1e9, sum = 0;
-    for (int repeat = 0; repeat < REPEATS; ++repeat) {
-        clock_t start = clock();
-        sum = 0;
-        for (int i = 0; i < COUNT; ++i) {
-            const double *a = x[i];
-            struct balls_pair pair = {0.3, a[9], a[10], 0, 0, 0, (int)a[11]};
-            struct balls_vector n = {a[0], a[1], a[2]}, v = {a[3], a[4], a[5]};
-            struct balls_vector w = {a[6], a[7], a[8]};
-            struct balls_collision hit = balls_bounce(pair, n, ball, v, w);
-            sum += hit.velocity.x + hit.spin.y;
-        }
-        double taken = (double)(clock() - start) / CLOCKS_PER_SEC;
-        best = taken < best ? taken : best;
-    }
-    printf("%.17g %.17g\\n", best, sum);
-    return 0;
-}
-"""
-JAVASCRIPT = """\
-import { readFileSync } from "node:fs";
-import { bounce, solid_sphere } from "./balls.mjs";
-const bytes = readFileSync("collisions"), ball = solid_sphere(0.01, 0.01), impacts = [];
-const x = new Float64Array(bytes.buffer, bytes.byteOffset, COUNT * 12);
-for (let i = 0; i < x.length; i += 12) {
-    const [stiffness_ratio, restitution, loss] = x.subarray(i + 9, i + 12);
-    impacts.push([
-        { friction: 0.3, stiffness_ratio, restitution, loss },
-        ...[0, 3, 6].map((at) => Array.from(x.subarray(i + at, i + at + 3))),
-    ]);
-}
-let best = 1e9, sum = 0;
-for (let repeat = 0; repeat < REPEATS; repeat += 1) {
-    const start = process.cpuUsage();
-    sum = 0;
-    for (const [pair, n, v, w] of impacts) {
-        const hit = bounce(pair, n, ball, v, w);
-        sum += hit.velocity[0] + hit.spin[1];
-    }
-    const taken = process.cpuUsage(start);
-    best = Math.min(best, (taken.user + taken.system) / 1e6);
-}
-console.log(best, sum);
-"""
 COMPILERS = [name for name in ("cc", "gcc", "clang") if shutil.which(name)][:1]
 
 
@@ -95,9 +39,10 @@ def main(folder):
     export.write_spheres(folder / "balls.h", "c")
     export.write_spheres(folder / "balls.mjs", "js")
     impacts().tofile(folder / "collisions")
-    for file, text in (("speed.c", C), ("speed.mjs", JAVASCRIPT)):
+    for ending in ("c", "mjs"):
+        text = Path(__file__).with_suffix(f".{ending}").read_text(encoding="utf-8")
         text = text.replace("COUNT", str(COUNT)).replace("REPEATS", str(REPEATS))
-        (folder / file).write_text(text)
+        (folder / f"speed.{ending}").write_text(text)
     commands = {"node": ["node", "speed.mjs"]} if shutil.which("node") else {}
     for compiler in COMPILERS:
         compiled = [compiler, "-std=c99", "-O2", "speed.c", "-o", "speed", "-lm"]

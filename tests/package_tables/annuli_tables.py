@@ -36,20 +36,13 @@ def checked(stiffness_ratio, incidence):
     return found
 
 
-def table(stiffness_ratio, incidence=INCIDENCE):
-    """Velocity at separation by annuli."""
-    return checked(stiffness_ratio, incidence).velocity
-
-
-def write(folder):
-    """Write one CSV a stiffness ratio, all or none of them."""
-    tables = {}
+def tables():
+    """Both tables, `{name: Table}`, all or none of them."""
+    header, found = [exact_tables.INCIDENCE, exact_tables.VELOCITY], {}
     for name, ratio in STIFFNESS_RATIO.items():
-        places = zip(INCIDENCE, table(ratio), strict=True)
-        tables[name] = table_files.table(
-            [exact_tables.INCIDENCE, exact_tables.VELOCITY], _row, places
-        )
-    table_files.write(folder, tables)
+        places = zip(INCIDENCE, checked(ratio, INCIDENCE).velocity, strict=True)
+        found[name] = table_files.table(header, _row, places)
+    return found
 
 
 def _row(x, velocity):
@@ -57,4 +50,4 @@ def _row(x, velocity):
 
 
 if __name__ == "__main__":
-    write(sys.argv[1])
+    table_files.write(sys.argv[1], tables())

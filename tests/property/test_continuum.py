@@ -177,6 +177,3 @@ def test_the_regimes_of_maw_and_others_begin_where_they_say():
         found = continuum.rebound(near, 3.5, zeta2, tolerance=1e-5)
         assert found.regime.T.tolist() == [regimes] * 3
     assert (continuum.rebound([3.5, 4.5, 5.5], tolerance=1e-4).peak_friction == 1).all()
-
-
-# These stick first, so that every step is booked; one column for each restitution.

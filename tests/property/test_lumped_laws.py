@@ -90,14 +90,6 @@ def test_friction_takes_what_the_body_loses(everywhere, found, loss):
         assert (taken_besides <= bound).all()
 
 
-def test_a_mirror_image_only_turns_the_velocity(everywhere, found, loss):
-    x, *groups = everywhere
-    back = lumped.rebound(-x, *groups, loss=loss)
-    np.testing.assert_array_equal(back.velocity, -found.velocity)
-    for one, other in zip(found[1:4], back[1:4], strict=True):
-        np.testing.assert_array_equal(one, other)
-
-
 def test_slip_throughout_is_a_line_from_its_limit_on(everywhere, found, loss):
     x, beta, zeta2, e = everywhere
     slides = x >= lumped.slip_throughout_limit(beta, zeta2, e, loss=loss)
@@ -105,13 +97,6 @@ def test_slip_throughout_is_a_line_from_its_limit_on(everywhere, found, loss):
     line = np.maximum(x - (1 + e) * beta, -x)  # rounding creates no energy
     np.testing.assert_array_equal(found.velocity[slides], line[slides])
     assert (found.peak_friction[slides] == 1).all()
-
-
-def test_normal_impact_leaves_no_tangential_velocity(everywhere, found):
-    normal = everywhere[0] == 0
-    assert normal.sum() > 100
-    assert not found.velocity[normal].any() and not found.dissipation[normal].any()
-    assert (found.regime[normal] == Regime.STICK).all()
 
 
 def test_two_impacts_approach_each_other(impacts, loss):

@@ -1,29 +1,25 @@
 """The scheme of annuli: its errors, and its table; the continua against second codes."""
 
-import csv
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from planarimpact import continuum
 from planarimpact.continuum import annuli, cattaneo_mindlin
 from tests.package_tables import annuli_tables
+from tests.reference_solutions import table_files
 
 STEEL = 17 / 14
-DATA = Path(__file__).parents[2] / "data"
 
 
 def read(name, curve=""):
     """Numbers of a table, or of one of its curves."""
-    with open(DATA / name, newline="", encoding="utf-8") as file:
-        rows = [row[-4:] for row in csv.reader(file) if row[0].startswith(curve)]
-    return np.array(rows if curve else rows[1:], float)
+    rows = [row for row in table_files.read(name) if row.get("curve", "").startswith(curve)]
+    return np.array([list(row.values())[-4:] for row in rows], float)
 
 
 def rebounds(x):
     """Those of spheres of steel at some incidences."""
-    rows = read("maw1976/rebound_nu_0.3.csv")
+    rows = read("maw1976/rebound_nu_0.3")
     return rows[np.isin(rows[:, 0], x), 1]
 
 
@@ -38,7 +34,7 @@ def rebounds(x):
 def test_velocities_forces_and_losses_are_those_of_a_second_code(table, loss, e, sigmas):
     """The tables of annuli, and of springs in plain time, within the sigmas of their sources."""
     curve = f"continuum.{loss}" if loss else ""
-    x, *columns = read(f"{table}/rebound_grid.csv", curve)[3::7].T
+    x, *columns = read(f"{table}/rebound_grid", curve)[3::7].T
     found = continuum.rebound(x, 3.5, 1.21, e, loss=loss, tolerance=5e-6 if e == 1 else 1e-4)
     for name, column, sigma in zip(found._fields, columns, sigmas, strict=False):
         assert np.max(np.abs(getattr(found, name) - column)) <= sigma, name
@@ -49,7 +45,7 @@ def test_velocities_forces_and_losses_are_those_of_a_second_code(table, loss, e,
 def test_the_table_is_what_its_command_writes():
     """A row, computed anew with the same circles and steps."""
     x = np.array([4.0])
-    again = annuli_tables.table(STEEL, incidence=x)
+    again = annuli_tables.checked(STEEL, x).velocity
     np.testing.assert_allclose(again, rebounds(x), atol=5.1e-6)
 
 

@@ -1,8 +1,5 @@
 """Tables of data/ that are computed are what their generators compute."""
 
-import csv
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -20,7 +17,6 @@ from tests.reference_solutions import (
     table_files,
 )
 
-ROOT = Path(__file__).parents[2]
 # How many rows there are to each that is computed anew; what its numbers may differ by.
 GENERATORS = {
     "lumped_40_digits": (exact_tables, 4, 0.0),
@@ -44,9 +40,9 @@ LONG = "model_errors", "inelastic_models"
 def test_tables_in_data_are_what_their_generator_computes(source):
     generator, *settings = GENERATORS[source]
     tables = generator.tables()
-    assert {path.stem for path in (ROOT / "data" / source).glob("*.csv")} == set(tables)
+    assert {path.stem for path in (table_files.DATA / source).glob("*.csv")} == set(tables)
     for name, table in tables.items():
-        path = ROOT / "data" / source / f"{name}.csv"
+        path = table_files.DATA / source / f"{name}.csv"
         assert not table_files.differing(path, table, *settings), name
 
 
@@ -54,7 +50,7 @@ def test_tables_in_data_are_what_their_generator_computes(source):
 @pytest.mark.long
 def test_histories_of_the_continuum_are_what_their_generator_computes():
     """Each day the run's own comparison with them, micro_slip-continuum, would notice a change."""
-    path = ROOT / "data/elastic_continuum/micro_slip_instants.csv"
+    path = table_files.DATA / "elastic_continuum/micro_slip_instants.csv"
     table = continuum_tables.tables()["micro_slip_instants"]
     assert not table_files.differing(path, table, 1, 1.1e-6)
 
@@ -66,9 +62,8 @@ def test_rebound_by_annuli_is_that_of_a_row_of_springs(curve, zeta2):
     2e-4 is 1e-4 for the table, its sigma, and 1e-4 for the springs: half as many springs and steps
     change velocities by that much.
     """
-    with open(ROOT / "data/elastic_continuum/fig5_rebound.csv", newline="") as file:
-        rows = [row for row in csv.reader(file) if row[0] == curve]
-    x, velocity = np.array([row[1:3] for row in rows[1::4]], float).T
+    rows = [r for r in table_files.read("elastic_continuum/fig5_rebound") if r["curve"] == curve]
+    x, velocity = np.array([list(row.values())[1:3] for row in rows[1::4]], float).T
     found = spring_row.course(x, 3.5, zeta2, (2.0,), springs=2000, steps=8000).velocity[0]
     np.testing.assert_allclose(velocity, found, rtol=0, atol=2e-4)
 
@@ -92,7 +87,7 @@ def test_errors_of_the_ball_under_a_table_add_up_to_its_sigmas(monkeypatch):
     """
     monkeypatch.setattr(inelastic_tables, "FINE_STEPS", 800)
     monkeypatch.setattr(inelastic_tables, "FINE_SPRINGS", 200)
-    series = reference_data.load_yaml(ROOT / "data/inelastic_models/source.yaml")["series"]
+    series = reference_data.load_yaml(table_files.DATA / "inelastic_models/source.yaml")["series"]
     place, (_, along, _, spin) = series["superball"]["x"], series["superball"]["y"]
     path = inelastic_tables.ball_path.__wrapped__
     right = np.array(path(0.0, 0.0, 0.0))

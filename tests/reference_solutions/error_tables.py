@@ -8,13 +8,18 @@ are written anew from their definitions.
 """
 
 import functools
-import math
 import sys
 from typing import NamedTuple
 
 import numpy as np
 
-from tests.reference_solutions import exact_tables, inelastic_tables, table_files, viscous_precision
+from tests.reference_solutions import (
+    exact_tables,
+    inelastic_tables,
+    leapfrog,
+    table_files,
+    viscous_precision,
+)
 from tests.reference_solutions.exact_tables import BETA, ZETA2
 from tests.reference_solutions.table_files import table
 
@@ -38,8 +43,8 @@ def tables():
     models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach}
     elastic, models = models | {"lumped": lumped}, models | {"lumped.hysteretic": lumped}
     steps = {
-        f"timestep.{name}, {steps} steps": functools.partial(leapfrog, law, steps)
-        for name, law in LAWS.items()
+        f"timestep.{law}, {steps} steps": functools.partial(stepped, law, steps)
+        for law in leapfrog.LAWS
         for steps in STEPS
     }
     springs = {
@@ -168,41 +173,11 @@ def smith(e):
 
 # Steps in time -------------------------------------------------------------------------------
 
-# Exponent of force by depth; whether friction shrinks with the radius of contact.
-LAWS = {"linear": (1.0, False), "mindlin": (1.5, False), "mindlin_rescaled": (1.5, True)}
 
-
-def leapfrog(law, steps, e):
-    """A contact law of a discrete-element code, in equal steps over the exact duration.
-
-    Units: the largest depth of an elastic contact, v2(0) and m2. Force is P d^power; its work
-    P/(power + 1) is the energy 1/2. Velocities are half a step ahead of positions.
-    """
-    power, rescales = law
-    peak_force = (power + 1) / 2
-    # To greatest compression: the integral of dd/sqrt(1 - d^(power + 1)).
-    share = 1 / (power + 1)
-    duration = share * math.gamma(share) * math.gamma(0.5) / math.gamma(share + 0.5)
-    step = (1 + e) * duration / steps
-    approach, depth, deepest, radius = 1.0, 0.0, 0.0, 0.0
-    w, friction, largest = INCIDENCES.copy(), np.zeros(INCIDENCES.size), np.zeros(INCIDENCES.size)
-    while True:
-        depth += step * approach
-        deepest = max(deepest, depth)
-        # Below the deepest point force follows a curve that is steeper by 1/e^2.
-        elastic = deepest - (deepest - depth) / e**2
-        if elastic <= 0:
-            # Few steps may overshoot the largest force; the share is defined to be at most 1.
-            return _law(w, np.minimum(largest / peak_force, 1.0))
-        before, radius = radius, elastic ** (power - 1)
-        force = peak_force * elastic**power
-        if rescales and radius < before:
-            friction = friction * radius / before
-        stiffness = peak_force * power * radius / ZETA2
-        friction = np.clip(friction + step * stiffness * w, -force, force)
-        largest = np.maximum(largest, np.abs(friction))
-        approach -= step * force
-        w = w - step * BETA * friction
+def stepped(law, steps, e):
+    """A contact law of a discrete-element code."""
+    velocity, peak, _ = leapfrog.rebound(law, INCIDENCES, BETA, ZETA2, e, steps)
+    return _law(velocity, peak)
 
 
 if __name__ == "__main__":

@@ -103,17 +103,6 @@ def test_rebound_balances_energy_and_momentum(body, spin, w, e):
     assert energy(before) - energy(after) == pytest.approx(loss, rel=1e-12)
 
 
-@pytest.mark.parametrize("groups", [(1.0, 1.5, 0.0), (3.5, 1.21, 0.5), (20.0, 1e-4, 1.0)])
-@pytest.mark.parametrize("mu", [1e-300, 1e-12, 1e-3])
-def test_without_friction_nothing_changes(groups, mu):
-    beta, zeta2, e = groups
-    body, v1 = Body(1.0, 1.0, np.sqrt(beta - 1)), 3.0
-    w = lumped.rebound(bodies.incidence(v1, 1.0, mu), bodies.mass_ratio(body), zeta2, e).velocity
-    after = bodies.rebound_motion(body, Motion(v1, 1.0, 0.0), mu, w, e)
-    v1_after, _ = bodies.contact_velocity(after.tangential, 1.0, after.spin, body.radius)
-    assert abs(v1_after - v1) <= (1 + e) * beta * mu + 1e-14 * beta * v1
-
-
 def test_arrays_broadcast():
     ball = bodies.solid_sphere(np.array([0.01, 0.02]), 2500.0)
     motion = Motion(np.zeros((3, 1)), 1.0, 0.0)
@@ -216,8 +205,7 @@ def test_dundurs_constant_is_that_of_the_text_books():
     steel, rubber = Material(210e9, 0.3), Material(1e7, 0.5)
     assert bodies.dundurs(rubber) == pytest.approx(0.0, abs=1e-15)  # incompressible
     assert bodies.dundurs(steel) == pytest.approx((1 - 0.6) / (2 * (1 - 0.3)))
-    glass = Material(70e9, 0.25)
     g1, g2 = 210e9 / 2.6, 70e9 / 2.5
     stated = (g2 * (1 - 0.6) - g1 * (1 - 0.5)) / (g2 * (1 - 0.3) + g1 * (1 - 0.25)) / 2
-    assert bodies.dundurs(steel, glass) == pytest.approx(stated)
-    assert bodies.dundurs(glass, steel) == -bodies.dundurs(steel, glass)
+    assert bodies.dundurs(steel, GLASS) == pytest.approx(stated)
+    assert bodies.dundurs(GLASS, steel) == -bodies.dundurs(steel, GLASS)

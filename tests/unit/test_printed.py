@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from planarimpact import continuum, lumped
+from stronge1994 import plan
 from stronge1994.figures.fig5 import curves as fig5
 from stronge1994.figures.fig6 import curves as fig6
 from stronge1994.figures.fig7 import curves as fig7
 from stronge1994.figures.fig9 import curves as fig9
 from stronge1994.figures.shared.curves import beside
 from stronge1994.printed import impact, slip
+from tests.workflow.project import config, sources
 
 BETA, ZETA2 = 3.5, 1.21
 
@@ -48,24 +50,8 @@ def test_the_largest_force_is_that_of_a_dense_line(cosine, sine, end):
     assert impact._largest(cosine, sine, end) == pytest.approx(dense, rel=1e-6)
 
 
-CONTINUA = {"models": ["continuum.plastic"], "restitution": [0.5], "tolerance": 1e-2}
-CURVES = {
-    fig5: dict(
-        incidence=(0, 14),
-        restitution=0.5,
-        tolerance=1e-2,
-        loss_tolerance=1e-2,
-        rubber={"stiffness_ratio": 1.5},
-        experiment=dict(
-            mass_ratio=3.5, stiffness_ratio=1.164, restitution=0.98, friction=0.092, speed=3.9,
-            radius=0.0025,
-        ),
-        finite_elements=dict(mass_ratio=3.5, stiffness_ratio=1.2143, restitution=1.0),
-    ),
-    fig6: dict(incidence=(0, 8), restitution=[0.5], continua=CONTINUA),
-    fig7: dict(angle=(0, 90), friction=[0.5]),
-    fig9: dict(angle=(0, 90), friction=[0.5], restitution=[0.5], continua=CONTINUA),
-}  # fmt: skip
+# Without loss Fig. 5 as printed has no curve that differs.
+FIGURES = {fig5: {"restitution": 0.5}, fig6: {}, fig7: {}, fig9: {}}
 
 
 @pytest.fixture
@@ -75,11 +61,11 @@ def quick(monkeypatch):
     monkeypatch.setattr(beside, "rebound", lambda _, tolerance, *groups: lumped.rebound(*groups))
 
 
-@pytest.mark.parametrize("figure", CURVES, ids=lambda figure: figure.__name__.split(".")[-2])
+@pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: figure.__name__.split(".")[-2])
 def test_as_printed_curves_are_added_on_request_and_change_no_other(figure, quick):
-    settings = dict(mass_ratio=BETA, stiffness_ratio=ZETA2, samples=41, **CURVES[figure])
-    plain = figure.curves(**settings)
-    both = figure.curves(**settings, as_printed=True)
+    settings = plan.settings(config(), sources(), figure.__name__.split(".")[-2])
+    settings |= FIGURES[figure] | {"samples": 101}
+    plain, both = (figure.curves(**settings | {"as_printed": it}) for it in (False, True))
     added = [name for name in both if name not in plain]
     assert {name.split(",")[0] for name in added} == {"as printed", "no solution as printed"}
     for name, columns in plain.items():

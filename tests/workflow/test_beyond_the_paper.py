@@ -1,7 +1,6 @@
 """Figures beyond the paper: what no row of the run judges, in the curves of a finished run."""
 
 import runpy
-import shutil
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,7 +15,7 @@ from stronge1994.figures.inelastic import trials as pair_trials
 from stronge1994.figures.rubber_sphere import curves as rubber
 from stronge1994.figures.yielding import curves as yielding
 from tests.reference_solutions import cross_tables, table_files
-from tests.workflow.project import ROOT, schema
+from tests.workflow.project import ROOT
 
 BETA_0, MAX = inelastic.BETA_0, "max_velocity [mu v2(0)]"
 PAPER = "lumped.hysteretic, pairs"
@@ -132,14 +131,6 @@ def test_series_and_sigma_follow_from_the_runs_and_every_run_is_planned(make, in
     assert both < stated["y"]["sigma"] < 2 * both
     planned = {tuple(case[name] for name in make.KEY) for case in make.plan()}
     assert set(runs[make.KEY].itertuples(index=False, name=None)) == planned
-
-
-def test_what_makes_the_series_is_there(tmp_path):
-    folder = tmp_path / "finite_elements"
-    shutil.copytree(ELEMENTS, folder)
-    (folder / "runs.csv").unlink()
-    with pytest.raises(reference_data.SourceError, match="runs.csv: missing"):
-        reference_data.load(folder, schema("source"))
 
 
 # Error against time

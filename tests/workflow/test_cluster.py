@@ -45,15 +45,14 @@ def test_each_table_of_a_folder_is_a_job(example):
 
 
 @pytest.mark.parametrize(
-    ("names", "words"),
+    ("name", "words"),
     [
-        (["notes.txt"], "tables/: no table is there; allowed are names that end in .csv, "),
-        (["{e}.csv"], "tables/{e}.csv: Snakemake takes braces for a wildcard"),
+        ("notes.txt", "tables/: no table is there; allowed are names that end in .csv, "),
+        ("{e}.csv", "tables/{e}.csv: Snakemake takes braces for a wildcard"),
     ],
 )
-def test_what_is_no_folder_of_tables_is_refused(example, names, words):
-    for name in names:
-        (example / "tables" / name).touch()
+def test_what_is_no_folder_of_tables_is_refused(example, name, words):
+    (example / "tables" / name).touch()
     result = example.run()
     assert result.returncode != 0 and words in result.stdout
     assert not (example / "results").exists()

@@ -4,7 +4,6 @@ That every entry holds is what a run says; that each notices a fault, test_mutat
 refused, tests/refusals. The readings quote numbers, which are found here in other ways.
 """
 
-import csv
 import math
 import re
 from collections import Counter
@@ -15,6 +14,7 @@ import pytest
 from markupsafe import escape
 
 from planarimpact import continuum, lumped, noncollinear
+from stronge1994 import csv_tables
 from stronge1994.ledger import checking, contact, finding, outcome
 from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
@@ -40,8 +40,7 @@ def by_equations(name):
 @pytest.fixture(scope="module")
 def rows(first_run):
     """What a run with the right solver has found."""
-    with open(first_run[0] / "results/ledger.csv", newline="") as file:
-        return {row["entry"]: row for row in csv.DictReader(file)}
+    return {row["entry"]: row for row in csv_tables.read_rows(first_run[0] / "results/ledger.csv")}
 
 
 @pytest.mark.parametrize(
@@ -136,8 +135,7 @@ def test_the_second_verdict_never_changes_the_first(rows, measured):
 @pytest.fixture(scope="module")
 def measured(first_run):
     """What the measures in nature found in a run."""
-    with open(first_run[0] / "results/in_nature.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = csv_tables.read_rows(first_run[0] / "results/in_nature.csv")
     return {row["measure"]: {m: float(row[m]) for m in finding.MODELS} for row in rows}
 
 
