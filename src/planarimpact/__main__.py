@@ -60,8 +60,8 @@ UNITS: dict[type, dict[str, str]] = {
 # Numbers that the command line accepts; Python's float() accepts others too, such as 1_000.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
-# What begins with a minus sign and is no option. The pattern of argparse lacks -1e-3 (before 3.14).
-NEGATIVE = re.compile(r"-(\.?\d|inf|nan)", re.IGNORECASE)
+# What is no option, as those have two minus signs. The pattern of argparse lacks -1e-3 before 3.14.
+NEGATIVE = re.compile("-[^-]")
 # Number of incidences at which `models` measures errors.
 INCIDENCES = 65
 # Mass ratio m2/m1 of solid spheres.
@@ -91,17 +91,26 @@ dissipation [mu^2 m2 v2(0)^2],regime,model,loss
         options.command(options)
         sys.stdout.flush()
     except (checks.InputError, checks.ConvergenceError) as error:
-        print(f"planarimpact: {error}", file=sys.stderr)
+        _tell(f"planarimpact: {error}")
         return 2
     except BrokenPipeError:  # the reader of the output has closed the pipe
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
-        print(f"planarimpact: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
+        name = checks.in_ascii(str(error.filename or "output"))
+        _tell(f"planarimpact: {name}: {error.strerror}")
         return 2
     except KeyboardInterrupt:
-        print("planarimpact: interrupted", file=sys.stderr)
+        _tell("planarimpact: interrupted")
         return 130
     return 0
+
+
+def _tell(words: str) -> None:
+    """Say something on standard error; that nobody can read it is no error."""
+    try:
+        print(words, file=sys.stderr, flush=True)
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 
 
 def _prepare_streams() -> None:
@@ -215,19 +224,19 @@ def _scene(options: argparse.Namespace) -> None:
         options.tolerance,
         options.skip_bad,
         options.loss,
-        notice=lambda words: print(words, file=sys.stderr),
+        notice=_tell,
     )
     # Nothing else may stand in a table on standard output.
     stream = options.output == tables.STREAM
-    words = sys.stderr if stream else sys.stdout
-    print(f"{options.output}: {solver.rows - len(solver.bad)} impacts", file=words)
+    tell = _tell if stream else print
+    tell(f"{options.output}: {solver.rows - len(solver.bad)} impacts")
     if stream:
         for row, problem in solver.bad:
-            print(f"row {row}, left out: {problem}", file=sys.stderr)
+            tell(f"row {row}, left out: {problem}")
     elif solver.bad:
-        print(f"{options.output}.bad.csv: {len(solver.bad)} bad rows left out", file=words)
+        tell(f"{options.output}.bad.csv: {len(solver.bad)} bad rows left out")
     if options.explain:
-        print(solver.explain(), file=words)
+        tell(solver.explain())
 
 
 def _models(options: argparse.Namespace) -> None:
@@ -267,7 +276,7 @@ def _errors(groups: dict[str, float], loss: str | None) -> dict[str, ArrayLike]:
         seen = np.mean(error > spread) if np.isfinite(error).all() else np.nan
         rows.append([np.sqrt(np.mean(error**2)), np.max(error), seen])
     used = ", ".join(f"{name} {value:g}" for name, value in groups.items())
-    print(f"Errors against {reference} for {used}", file=sys.stderr)
+    _tell(f"Errors against {reference} for {used}")
     names = "rms [mu v2(0)]", "max [mu v2(0)]", "seen [1]"
     rounded = [[float(f"{value:.2g}") for value in row] for row in rows]
     return dict(zip(names, np.transpose(rounded), strict=True))

@@ -48,11 +48,14 @@ def test_each_table_of_a_folder_is_a_job(example):
     ("name", "words"),
     [
         ("notes.txt", "tables/: no table is there; allowed are names that end in .csv, "),
-        ("{e}.csv", "tables/{e}.csv: Snakemake takes braces for a wildcard"),
+        ("{e}.csv", "tables/'{e}.csv': allowed are files whose names have no { } < >"),
+        ("<logs>.csv", "tables/'<logs>.csv': allowed are files whose"),
+        ("away.csv", "tables/'away.csv': allowed are files"),  # a link that leads nowhere
     ],
 )
 def test_what_is_no_folder_of_tables_is_refused(example, name, words):
-    (example / "tables" / name).touch()
+    table = example / "tables" / name
+    table.symlink_to("nowhere") if name == "away.csv" else table.touch()
     result = example.run()
     assert result.returncode != 0 and words in result.stdout
     assert not (example / "results").exists()

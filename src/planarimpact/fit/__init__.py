@@ -97,8 +97,7 @@ def fit(
     >>> round(found.stiffness, 1), round(found.damping, 1)
     (0.6, 0.2)
     """
-    if not isinstance(law, str) or law not in CODES:
-        raise checks.InputError(f"law = {checks.brief(law)}: allowed are {', '.join(CODES)}")
+    code = CODES[checks.word("law", law, CODES)]
     allowed = f"numbers from {LEAST_RESTITUTION} to 1"
     e = checks.number("restitution", restitution, allowed, LEAST_RESTITUTION, 1)
     beta = checks.number("mass_ratio", mass_ratio, "numbers from 1 to 8", 1, 8)
@@ -111,7 +110,6 @@ def fit(
     x = np.linspace(0.0, end, SAMPLES)
     far = np.append(x, 2 * end)  # one place more, beyond the range
     exact = _continuum(far, beta, zeta2, e, loss)
-    code = CODES[law]
     fitted = [
         (*_nearest(exact[:-1], contact, x, beta, zeta2, e, code.by_normal and e == 1), style)
         for style, contact in code.styles.items()

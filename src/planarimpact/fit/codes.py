@@ -39,11 +39,15 @@ the range, at x = {twice:.3g}, {found.beyond:.3f}
 #   as computed from the sources of the code, and measured only for two spheres in LAMMPS:
 #     of two spheres at most {costs[0]:.2g} for x up to {up_to[0]:g}, where contacts mostly stick
 #     of two spheres at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
-{larger}#     of a sphere at a flat wall at most {costs[2]:.2g} for x up to {up_to[1]:g}
-#   a spin against the motion can more than double it
+#     of a sphere at a flat wall {wall} for x up to {up_to[1]:g}
+{jumps}{larger}#   a spin against the motion can more than double it
 # The fit holds for this restitution and this material.
 """
-LARGER = "#     of two spheres more at a larger mu; how much is not known\n"
+JUMPS = """\
+#     of these {0:g}, {1:g} and {2:g} also for the smallest overlap: velocities jump where a step of
+#     the contact changes
+"""
+LARGER = "#   at a larger mu it is more; how much is not known\n"
 LAMMPS = """\
 # limit_damping keeps contacts from pulling: with it {found.told:.4g} gives e = \
 {found.restitution:g}.
@@ -319,6 +323,8 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
     weaker = damping / WALL
     at_wall = math.exp(-math.pi * weaker / math.sqrt(4 - weaker**2))
     end, known = float(found.incidence[-1]), overlaps.FRICTIONS[-1]
+    costs = overlaps.costs(found.law, size, min(mu, known))
+    jumps = overlaps.costs(found.law, 0.0, 0.0)
     return {
         "continuum": found.loss if found.restitution < 1 else "elastic",
         "steps": timestep.DASHPOT_STEPS,
@@ -327,7 +333,9 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
         "twice": 2 * end,
         "overlap": size,
         "up_to": overlaps.INCIDENCES,
-        "costs": overlaps.costs(found.law, size, min(mu, known)),
+        "costs": costs,
+        "wall": f"at most {costs[2]:.2g}" if costs[2] else "nothing",
+        "jumps": JUMPS.format(*jumps) if any(jumps) else "",
         "measured": min(mu, known),
         "larger": LARGER if mu > known else "",
         "friction": mu,

@@ -1,6 +1,7 @@
 """The exceptions that the package raises, and the checks of arguments before any computation."""
 
 import math
+import re
 import reprlib
 from collections.abc import Collection, Iterable, Sequence
 from functools import partial
@@ -55,12 +56,12 @@ def brief(value: object) -> str:
     >>> brief([1.5, "x", 3, 4, 5])
     "[1.5, 'x', 3, 4, ...]"
     """
-    return in_ascii(_BRIEF.repr(value))
+    return in_ascii(_BRIEF.repr(value).replace("\n", " "))
 
 
 def in_ascii(text: str) -> str:
-    """A text in one line, with the codes of other letters and signs: some look like those here."""
-    return text.replace("\n", " ").encode("ascii", "backslashreplace").decode()
+    """A text in one line, with the codes of all that is no letter or sign of ASCII."""
+    return re.sub("[^ -~]", lambda found: ascii(found[0])[1:-1], text)
 
 
 def checked(

@@ -35,7 +35,7 @@ KINDS = CSV, GZIP, PARQUET = ".csv", ".csv.gz", ".parquet"
 STREAM = "-"
 # What is read at a time: bytes of CSV, rows of Parquet.
 BYTES, ROWS = 2**22, BLOCK
-HEAD = 2**16  # bytes that hold the header
+HEAD = 2**22  # bytes that hold the header
 # A cell of CSV in quotation marks, and what stands where it ends: nothing where that is not read.
 QUOTED = re.compile(rb'"(?<![^,\r\n]")(?:[^"]|"")*+(?P<end>("[^"]?)?)')
 SEPARATORS = b"", b",", b"\r", b"\n"
@@ -83,8 +83,12 @@ def solve(
         If a file cannot be read or written.
     """
     source, target = _checked(source), _checked(target)
-    if STREAM not in (source, target) and Path(target).exists() and Path(target).samefile(source):
-        raise InputError(f"{target}: it is the table that is read; the result needs another name")
+    for written in (target, f"{target}.bad.csv")[: 1 + skip_bad]:
+        there = STREAM not in (source, target) and Path(written).exists()
+        if there and Path(written).samefile(source):
+            raise InputError(
+                f"{written}: it is the table that is read; the result needs another name"
+            )
     solver = Solver(tolerance, loss)
     with ExitStack() as stack:
         bad = None
@@ -157,21 +161,26 @@ class _Checked:
     closed = False  # Arrow asks
 
     def __init__(self, file: Any) -> None:
-        self._file, self._line, self._rest = file, 1, b""
-        self._begin = file.read(HEAD).removeprefix(codecs.BOM_UTF8).lstrip()
+        self._file, self._rest, self._ended = file, b"", False
+        begin = file.read(HEAD).removeprefix(codecs.BOM_UTF8)
+        self._begin = begin.lstrip()
+        self.line = 1 + begin[: len(begin) - len(self._begin)].count(b"\n")
         whole = self._begin[: _end_of_lines(self._begin)] or self._begin
         self.header = csv_text.header(csv_text.decoded(whole))
 
     def read(self, size: int) -> bytes:
         """The next bytes, after a look at all lines that end in them."""
         part, self._begin = self._begin[:size], self._begin[size:]
-        part = part or self._file.read(size)
+        if len(part) < size:
+            part += self._file.read(size - len(part))
+        if len(part) < size and not self._ended:  # else Arrow takes a header alone for half a line
+            part, self._ended = part + b"\n", True
         text = self._rest + part
         end = _end_of_lines(text) if part else len(text)
         if not text.isascii():  # both looks take their time
-            csv_text.decoded(text[:end], self._line)
+            csv_text.decoded(text[:end], self.line)
         for cell in QUOTED.finditer(text, 0, end) if b'"' in text else ():
-            line = self._line + text[: cell.start()].count(b"\n")
+            line = self.line + text[: cell.start()].count(b"\n")
             if not cell["end"] and part:  # it has line breaks, and goes on
                 end = cell.start()
             elif not cell["end"]:
@@ -180,7 +189,7 @@ class _Checked:
                 shown = ascii(cell[0].decode(errors="replace"))[:60]
                 words = "allowed is a comma behind a closing quotation mark"
                 raise InputError(f"line {line}: {shown}: {words}")
-        self._line, self._rest = self._line + text[:end].count(b"\n"), text[end:]
+        self.line, self._rest = self.line + text[:end].count(b"\n"), text[end:]
         return part
 
 
@@ -202,7 +211,7 @@ def _of_csv(file: Any, skip: Callable[[int, str], None] | None) -> Iterator[pa.T
     def refused(row: pa.csv.InvalidRow) -> str:
         """What to do with a row that has another number of cells than the header."""
         nonlocal blank
-        if row.text.isspace():
+        if not row.text.strip(' \t\r\n"'):
             blank += 1
             return "skip"
         hint = columns.DECIMALS if row.actual_columns > row.expected_columns else ""
@@ -240,6 +249,8 @@ def _of_csv(file: Any, skip: Callable[[int, str], None] | None) -> Iterator[pa.T
             ]
             yield pa.Table.from_arrays(cells, checked.header)
     except pa.ArrowInvalid as error:
+        if "straddling" in str(error):
+            problems = [f"line {checked.line}: more than {BYTES} bytes; is a quotation mark open?"]
         raise InputError(problems[0] if problems else str(error)) from None
 
 

@@ -95,8 +95,9 @@ def with_values(node: Any) -> Any:
         for tag, number in {"int": int, "float": float}.items():
             if strict_yaml.NUMBERS[tag].fullmatch(node):
                 return number(node)
-        if node.lower() in ("nan", "inf", "-inf"):  # to be refused as numbers, not as texts
-            return float(node)
+        plain = node.lower().replace(".", "")
+        if plain in ("nan", "inf", "-inf"):  # to be refused as numbers, not as texts
+            return float(plain)
     return node
 
 
@@ -107,6 +108,8 @@ def refuse_misread_values(arguments: Collection[str]) -> None:
         if names.count(name) > 1:
             raise ConfigError(f"--config {name}: it is there twice")
         value = text.partition("=")[2]
+        if not value.isascii():
+            raise ConfigError(f"--config {name}={value!a}: allowed are values in ASCII")
         try:
             strict_yaml.load(f"{name}: {value}")
         except ValueError as error:

@@ -236,7 +236,7 @@ def arrays(series: Series) -> Columns:
 
 def _number(cell: str, axis: Axis, where: str) -> float:
     """A decimal number, at most a little outside the range of its axis."""
-    text = cell.strip(" ")
+    text = cell.strip()
     if not NUMBER.fullmatch(text):
         raise SourceError(f"{where}: {ascii(text)} is not a decimal number such as -0.05")
     value = float(text)

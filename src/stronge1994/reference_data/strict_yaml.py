@@ -9,13 +9,13 @@ from typing import Any
 
 import yaml
 
-# Numbers that every reader understands alike. Infinities and NaN are left to the schemas.
+# Numbers that every reader understands alike.
 NUMBERS = {
     "int": re.compile(r"[-+]?(0|[1-9][0-9]{0,17})"),
-    "float": re.compile(
-        r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?|[-+]?\.(inf|nan)", flags=re.I
-    ),
+    "float": re.compile(r"[-+]?((0|[1-9][0-9]*)\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?", flags=re.I),
 }
+# What the schemas refuse.
+NOT_FINITE = (".inf", "-.inf", ".nan")
 # All other kinds of values: a date would be no text.
 KINDS = ("str", "bool", "null", "seq", "map", "merge")
 _Fast: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # some installations lack it
@@ -62,7 +62,8 @@ def _check(node: yaml.Node) -> None:
         raise ValueError(f"line {at.start_mark.line + 1}: {what}")
 
     kind = node.tag.rpartition(":")[2]
-    if kind in NUMBERS and not NUMBERS[kind].fullmatch(node.value):
+    finite = node.value not in NOT_FINITE
+    if kind in NUMBERS and finite and not NUMBERS[kind].fullmatch(node.value):
         refuse(f"{node.value[:60]!a} is no decimal number such as -0.05", node)
     if kind not in (*NUMBERS, *KINDS):
         refuse(f"{str(node.value)[:60]!a} is a {kind}; a text has quotes around it", node)
