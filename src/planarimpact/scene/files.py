@@ -166,7 +166,7 @@ class _Checked:
         self._begin = begin.lstrip()
         self.line = 1 + begin[: len(begin) - len(self._begin)].count(b"\n")
         whole = self._begin[: _end_of_lines(self._begin)] or self._begin
-        self.header = csv_text.header(csv_text.decoded(whole))
+        self.header = csv_text.header(csv_text.decoded(whole, self.line))
 
     def read(self, size: int) -> bytes:
         """The next bytes, after a look at all lines that end in them."""
