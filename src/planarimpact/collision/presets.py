@@ -1,6 +1,7 @@
 """Presets: bodies with their pairs of materials, and the sources of their numbers."""
 
 import tomllib
+from functools import cache
 from importlib import resources
 from typing import Any, NamedTuple
 
@@ -44,6 +45,12 @@ def presets() -> dict[str, Preset]:
     >>> ball.about, round(float(ball.body.mass), 3), ball.pair.restitution.item()
     ('rubber ball on granite', 0.046, 0.9)
     """
+    return dict(_presets())
+
+
+@cache
+def _presets() -> dict[str, Preset]:
+    """Presets by name, of which nobody gets the original."""
     text = resources.files(__package__).joinpath("presets.toml").read_text(encoding="utf-8")
     return {name: _preset(**given) for name, given in tomllib.loads(text).items()}
 
