@@ -7,8 +7,8 @@ import importlib
 from collections.abc import Mapping
 from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.figures.shared.drawing import house_style, slide
@@ -40,18 +40,18 @@ def with_all(figure: Figure, points: Points) -> Figure:
     So nothing is compared in silence. A series of other axes, such as one against an angle that is
     compared with a table of the same impacts, has no place in the figure: the report shows it.
     """
-    drawn = set()
-    for line in figure.findobj(Line2D):
-        drawn.add(line.get_gid())  # of `house_style.measured`
-        line.set_gid(None)  # in a file it would be an id, and some series have several lines
+    panels: dict[Any, Axes] = {}  # by what `house_style` has drawn there: series, pairs of columns
+    for axes in figure.axes:
+        for line in axes.lines:
+            panels[line.get_gid()] = axes
+            line.set_gid(None)  # in a file it would be an id, and some series have several lines
     for name, one in points.items():
         published = one.get("kind") not in (None, "computed")  # a stated fact has no kind
-        panels = [axes for axes in figure.axes if axes.get_label() == f"{one.get('axes')}"]
-        if published and panels and name not in drawn:
+        panel = panels.get(f"{one.get('axes')}")
+        if published and panel and name not in panels:
             style = {"marker": "o", "markerfacecolor": "white", "label": name}
-            house_style.measured(panels[0], one, **style)
-            added = [bars for bars in panels[0].containers if bars.get_label() in points]
-            panels[0].legend(handles=added)
+            house_style.measured(panel, one, **style)
+            panel.legend(handles=[bars for bars in panel.containers if bars.get_label() in points])
     return figure
 
 

@@ -175,8 +175,8 @@ def line(
     """
     curve = curves[name]
     height = curve[y] if rows is None else np.where(rows, curve[y], np.nan)
-    axes.set(xlabel=of_column(x), ylabel=of_column(y), label=f"{(x, y)}")
-    return axes.plot(curve[x], height, **{"label": symbols(name)} | style)[0]
+    axes.set(xlabel=of_column(x), ylabel=of_column(y))
+    return axes.plot(curve[x], height, **{"label": symbols(name), "gid": f"{(x, y)}"} | style)[0]
 
 
 def of_restitution(e: float) -> Dashes:
@@ -259,7 +259,7 @@ def measured(axes: Axes, series: Series, **style: Any) -> Artist:
     axes.set(xlabel=x_label, ylabel=y_label)
     x_error, y_error = series["sigma"]
     bars = {"linestyle": "none", "elinewidth": 0.7, "markeredgewidth": 0.9, "zorder": 3}
-    bars["gid"] = series["name"]  # by which `draw` knows that it is drawn
+    bars["gid"] = series["name"]  # as that of a line, for `with_all`
     return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
 
 
