@@ -23,11 +23,10 @@ def decoded(content: bytes, line: int = 1) -> str:
     try:
         return content.decode("utf-8-sig" if line == 1 else "utf-8")
     except UnicodeDecodeError as error:
+        problem = f"byte 0x{content[error.start]:02x} is no UTF-8; save the file as UTF-8"
         if line == 1 and content[:2] in OTHERS:
             problem = f"it is {OTHERS[content[:2]]}; allowed is text, saved as UTF-8"
-            raise InputError(f"line 1: {problem}") from None
         line += content[: error.start].count(b"\n")
-        problem = f"byte 0x{content[error.start]:02x} is no UTF-8; save the file as UTF-8"
         raise InputError(f"line {line}: {problem}") from None
 
 

@@ -29,7 +29,7 @@ except ImportError as error:
     raise ImportError(f"{message} ({error})", name=error.name) from None
 
 # What readers raise where a file is no table, beside an OSError without a number.
-NO_TABLE = InputError, UnicodeError, csv.Error, EOFError, zlib.error, pa.ArrowException
+NO_TABLE = InputError, UnicodeError, EOFError, zlib.error, pa.ArrowException
 KINDS = CSV, GZIP, PARQUET = ".csv", ".csv.gz", ".parquet"
 # Standard input or output.
 STREAM = "-"
@@ -83,22 +83,18 @@ def solve(
         If a file cannot be read or written.
     """
     source, target = _checked(source), _checked(target)
-    for written in (target, f"{target}.bad.csv")[: 1 + skip_bad]:
-        there = STREAM not in (source, target) and Path(written).exists()
-        if there and Path(written).samefile(source):
-            raise InputError(
-                f"{written}: it is the table that is read; the result needs another name"
-            )
+    lists = [f"{target}.bad.csv"] if skip_bad and target != STREAM else []  # of bad rows
+    for path in (target, *lists):
+        if STREAM not in (source, path) and Path(path).exists() and Path(path).samefile(source):
+            raise InputError(f"{path}: it is the table that is read; the result needs another name")
     solver = Solver(tolerance, loss)
     with ExitStack() as stack:
-        bad = None
-        if skip_bad and target != STREAM:
-            bad = stack.enter_context(files.written(f"{target}.bad.csv"))
+        partial = [stack.enter_context(files.written(path)) for path in lists]
         write = stack.enter_context(_writer(target))
         for part in _solved(solver, source, skip_bad, notice):
             write(part)
-        if bad:  # also without a bad row: an old list is not about the new result
-            pd.DataFrame(solver.bad, columns=["row", "problem"]).to_csv(bad, index=False)
+        for file in partial:  # also without a bad row: an old list is not about the new result
+            pd.DataFrame(solver.bad, columns=["row", "problem"]).to_csv(file, index=False)
     return solver
 
 

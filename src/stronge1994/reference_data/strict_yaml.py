@@ -12,7 +12,7 @@ import yaml
 # Numbers that every reader understands alike.
 NUMBERS = {
     "int": re.compile(r"[-+]?(0|[1-9][0-9]{0,17})"),
-    "float": re.compile(r"[-+]?((0|[1-9][0-9]*)\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?", flags=re.I),
+    "float": re.compile(r"[-+]?((0|[1-9][0-9]*)\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?$", flags=re.I),
 }
 # What the schemas refuse.
 NOT_FINITE = (".inf", "-.inf", ".nan")
@@ -25,8 +25,7 @@ class Loader(_Fast):
     """A loader that knows the numbers of YAML 1.2: 4e-1 too."""
 
 
-_FLOAT = re.compile(f"(?:{NUMBERS['float'].pattern})$", flags=re.I)
-Loader.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, [*"+-.0123456789"])
+Loader.add_implicit_resolver("tag:yaml.org,2002:float", NUMBERS["float"], [*"+-.0123456789"])
 
 
 def load(text: str) -> dict[str, Any]:
