@@ -8,7 +8,6 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-
 from stronge1994.run import plans, record
 
 JOB = "results/records/job.json"

@@ -5,7 +5,7 @@ import pytest
 
 from stronge1994 import reference_data
 from stronge1994.judging import points
-from stronge1994.plan import config as configuration
+from stronge1994.settings import config as configuration
 from tests.workflow.project import config, sources
 
 AXES = {

@@ -11,10 +11,11 @@ import tempfile
 import time
 from pathlib import Path
 
+from stronge1994.run import record
+
 from stronge1994 import reference_data
 from stronge1994.ledger import entries
-from stronge1994.plan import config as configuration
-from stronge1994.run import record
+from stronge1994.settings import config as configuration
 from tests.workflow import started
 
 ROOT = Path(__file__).parents[2]

@@ -17,7 +17,7 @@ from matplotlib.image import imread
 from planarimpact import bodies, collision, continuum, lumped
 from stronge1994 import plan
 from stronge1994.explorer import page as write_explorer
-from stronge1994.plan import figures
+from stronge1994.settings import figures
 from tests.workflow import node
 from tests.workflow.project import config
 

@@ -6,11 +6,11 @@ import shutil
 from pathlib import Path
 
 import pytest
+from stronge1994.run import gate, record
 
 from stronge1994 import csv_tables
 from stronge1994.ledger import outcome
 from stronge1994.pages import report as write_report
-from stronge1994.run import gate, record
 from stronge1994.verdict_tables import verdict_table
 from tests.workflow.project import ROOT, config
 

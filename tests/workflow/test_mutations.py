@@ -20,7 +20,7 @@ from stronge1994.figures.shared.curves import beside, solving
 from stronge1994.judging import compare
 from stronge1994.judging import rows as judging_rows
 from stronge1994.ledger import checking
-from stronge1994.plan import config as configuration
+from stronge1994.settings import config as configuration
 from stronge1994.verdict_tables.verdict_table import FAILS
 from tests.workflow.project import ROOT, config, ledger
 

@@ -14,13 +14,13 @@ from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
+from stronge1994.run import plans
 
 from stronge1994 import csv_tables
 from stronge1994.curve_names import is_shifted
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import house_style
-from stronge1994.plan import figures
-from stronge1994.run import plans
+from stronge1994.settings import figures
 
 # Curves that are only compared, as patterns; and those that are areas, bars and marks.
 NOT_DRAWN = {

@@ -13,8 +13,8 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-
 from stronge1994.run import last_words, plans, record
+
 from tests.workflow.project import ROOT, Project
 from tests.workflow.test_refusals import explained
 

@@ -9,7 +9,7 @@ import pytest
 from planarimpact.__main__ import main
 from stronge1994 import csv_tables, reference_data
 from stronge1994.curve_names import is_of_paper
-from stronge1994.plan import figures
+from stronge1994.settings import figures
 from stronge1994.verdict_tables import figure_table
 
 ROOT = Path(__file__).parents[2]

@@ -18,7 +18,7 @@ from stronge1994.formulas import mathematical, number
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import key_numbers, note, which_model
 from stronge1994.pages import report as write_report
-from stronge1994.plan import config as configuration
+from stronge1994.settings import config as configuration
 from stronge1994.verdict_tables import verdict_table
 from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat

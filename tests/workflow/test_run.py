@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 from stronge1994 import csv_tables
-from stronge1994.plan import figures
+from stronge1994.settings import figures
 from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
 from tests.workflow.project import ROOT, config, copy_of
 

@@ -12,8 +12,8 @@ from planarimpact.ground.checks import ConvergenceError
 from stronge1994 import judging, plan, reference_data
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import solving
-from stronge1994.plan import config as configuration
-from stronge1994.plan import figures
+from stronge1994.settings import config as configuration
+from stronge1994.settings import figures
 from tests.workflow.project import ROOT, ledger
 
 # What only makes a picture finer, and its table more exact, while another setting is tried.

@@ -1,9 +1,9 @@
 """What a run says in the end."""
 
 import pytest
+from stronge1994.run import gate, last_words, plans, record
 
 from stronge1994 import csv_tables
-from stronge1994.run import gate, last_words, plans, record
 from stronge1994.verdict_tables import verdict_table
 
 VERDICT = {

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from stronge1994 import judging, reference_data
-from stronge1994.plan.figures import expanded
+from stronge1994.settings.figures import expanded
 from tests.workflow.project import ROOT
 
 TEXT = (ROOT / "workflow/your_model_your_data.md").read_text(encoding="utf-8")

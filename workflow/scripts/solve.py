@@ -1,9 +1,10 @@
 """Solve the curves of one figure."""
 
-from stronge1994.run import record
+import sys
 
-with record.recorded(snakemake) as settings:
-    from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
-    from stronge1994.figures.shared.curves import solving
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
 
-    solving.solve(snakemake.wildcards.figure, **settings, output=snakemake.output.table)
+from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
+from stronge1994.figures.shared.curves import solving
+
+solving.solve(snakemake.wildcards.figure, **snakemake.params.settings, output=snakemake.output[0])

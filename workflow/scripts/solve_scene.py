@@ -1,9 +1,10 @@
 """Solve one scene. Which model took how many impacts, and why, goes to the log."""
 
-from stronge1994.run import record
+import sys
 
-with record.recorded(snakemake) as tolerance:
-    from planarimpact.scene import files
+sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
 
-    solver = files.solve(snakemake.input.table, snakemake.output.table, tolerance)
-    print(solver.explain())
+from planarimpact.scene import files
+
+solver = files.solve(snakemake.input.table, snakemake.output[0], snakemake.params.tolerance)
+print(solver.explain())

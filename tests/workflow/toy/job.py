@@ -6,8 +6,9 @@ import sys
 import time
 from pathlib import Path
 
-from stronge1994 import csv_tables
 from stronge1994.run import record
+
+from stronge1994 import csv_tables
 
 JOB = Path(snakemake.log[0]).stem
 
