@@ -21,7 +21,7 @@ rule all:
     input:
         verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
         ledger=["results/ledger.csv"],
-        pictures=drawn(FIGURES),
+        made=made(JUDGED),
         pages=PAGES,
     log:
         "results/logs/all.log",
@@ -42,7 +42,7 @@ for target, names in {"paper": PAPER, **{name: [name] for name in JUDGED}}.items
             target
         input:
             verdicts=expand("results/verdicts/{judged}.csv", judged=names),
-            pictures=drawn([name for name in names if name in FIGURES]),
+            made=made(names),
         log:
             f"results/logs/{target}.log",
         conda:
@@ -56,13 +56,15 @@ for target, names in {"paper": PAPER, **{name: [name] for name in JUDGED}}.items
 rule figures:
     """Pictures only, without judging, and without those that take long as they measure time."""
     input:
-        drawn([figure for figure in FIGURES if figure not in TIMED]),
+        made([figure for figure in FIGURES if figure not in TIMED]),
 
 
 rule notebooks:
     """The lectures alone: notebooks run from the first cell to the last, as pages."""
     input:
-        expand("figures/{notebook}.html", notebook=NOTEBOOKS),
+        "results/curves/trade.csv",
+        rules.trade_tables.output,
+        expand(rules.lecture.output, notebook=NOTEBOOKS),
 
 
 onsuccess:

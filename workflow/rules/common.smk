@@ -78,13 +78,20 @@ def of_judged(part):
     return lambda wildcards: JUDGED[wildcards.judged][part]
 
 
-def drawn(names):
-    """Pictures of some figures, their curves, and the slides that they have."""
-    made = expand(
-        ["results/curves/{figure}.csv", "figures/{figure}.svg", "figures/{figure}.png"], figure=names
-    )
-    slides = [figure for figure in SLIDES if figure in names]
-    return made + expand("figures/slides/{figure}_{ground}.png", figure=slides, ground=["light", "dark"])
+def made(names):
+    """Tables and pictures of figures and scenes, and all on the way to them.
+
+    A failed job removes its files. Snakemake makes a missing one again only if it is asked for: else it
+    is content with what an earlier run has made of it.
+    """
+    drawn = [name for name in names if name in FIGURES]
+    slides = [name for name in SLIDES if name in names]
+    return [
+        *rules.versions.output,
+        *(JUDGED[name]["table"] for name in names),
+        *expand("figures/{figure}.{kind}", figure=drawn, kind=["svg", "png"]),
+        *expand("figures/slides/{figure}_{ground}.png", figure=slides, ground=["light", "dark"]),
+    ]
 
 
 def rows_of(names):

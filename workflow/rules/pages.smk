@@ -128,7 +128,12 @@ PAGES = [
 rule site:
     """All pages and the interface of the solver in one folder and as a zip file; not part of `all`."""
     input:
-        pages=[path for path in [*PAGES, *drawn(FIGURES)] if path.startswith("figures/")],
+        made=[
+            *PAGES,
+            *made(JUDGED),
+            *expand("results/verdicts/{judged}.csv", judged=JUDGED),
+            "results/ledger.csv",
+        ],
         notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS)
         + ["workflow/notebooks/lecture.mplstyle"],
         texts=["LICENSE", "CITATION.cff"],

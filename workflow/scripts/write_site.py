@@ -7,6 +7,7 @@ sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
 from stronge1994.pages import interface, site
 
 given, folder = snakemake.input, snakemake.output.folder
-site.write(folder, given.pages, given.notebooks, given.texts)
+pages = [path for path in given.made if path.startswith("figures/")]
+site.write(folder, pages, given.notebooks, given.texts)
 interface.write(f"{folder}/interface")
 site.pack(folder, snakemake.output.archive)
