@@ -21,8 +21,8 @@ Look:     {REPORT}, open it in a browser: the table above, with reasons
 Play:     figures/explorer.html
 Change:   workflow/config.yaml, and run again: only what depends on it is redone"""
 STOPPED = """\
-Stopped before the end. Type the same command again: finished work is kept, what was not
-finished is done again. workflow/README.md, Troubleshooting, has the usual causes."""
+Stopped before the end: pages and pictures that are not made anew are of an earlier run. Type
+the same command again: what was finished is kept. Usual causes: workflow/README.md, Troubleshooting."""
 
 
 def faults(

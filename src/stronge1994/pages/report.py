@@ -57,7 +57,7 @@ MEANING = {
     "agrees": "with the paper or with others: p is large enough (published or measured points), or "
     "the distance is within its tolerance",
     "right": "our curve is that of its model: within the tolerance of our second code or of a law",
-    "as before": "it was solved without error, or fitted to these points: no evidence",
+    "as before": "as an earlier result of ours, or fitted to these points: no evidence",
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
 # Tables with a section of the report; their captions stand in files of the same names.
