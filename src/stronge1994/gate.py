@@ -9,20 +9,20 @@ from stronge1994.ledger import outcome
 from stronge1994.verdict_tables import figure_table, verdict_table
 
 LEDGER, REPORT = "results/ledger.csv", "figures/report.html"
-MOST_FAULTS = 8  # that are told at the end; the log of the gate has all
+MOST_FAULTS = 8  # that are told at the end; the tables have all
 KNOWN = (
     "Solved right: our own check only; largest difference in the axis' unit, and in sigmas,\n"
     "of which 1 is allowed. Beside others: the paper's model. A run also fails if one of the\n"
     f"{{}} known differences changes: {REPORT}#known has cause, size and bound of each."
 )
-NEXT = f"""\
+PASSED = f"""\
 PASSED. Each comparison: results/verdicts.csv, {LEDGER}; pictures: figures/
 Look:     {REPORT}, open it in a browser: the table above, with reasons
 Play:     figures/explorer.html
 Change:   workflow/config.yaml, and run again: only what depends on it is redone"""
 STOPPED = """\
-Stopped before the end: pages and pictures that are not made anew are of an earlier run. Type
-the same command again: what was finished is kept. Usual causes: workflow/README.md, Troubleshooting."""
+Stopped before the end: what is not made anew is missing or of an earlier run. Type the same
+command again, what was finished is kept. Usual causes: workflow/README.md, Troubleshooting."""
 
 
 def faults(
@@ -55,21 +55,23 @@ def faults(
 def last_words(
     verdicts: Sequence[str],
     comparisons: Collection[str],
-    entries: Collection[str] | None,
+    entries: Collection[str],
     failed: Mapping[str, str],
+    passed: Collection[str],
     stopped: bool,
     config: Sequence[str],
 ) -> str:
-    """What a run says at its end, by the tables that it has made or found up to date.
+    """What a run says at its end, by the tables of what it judges that are up to date then.
 
-    `verdicts` are the tables, `comparisons` and `entries` as for `faults`, None if the ledger has
-    not been checked. `failed` names jobs with their logs; `stopped` says that
-    the run did not get to its end. `config` are the arguments of --config, to be repeated.
+    `verdicts` are these tables, `comparisons` and `entries` as for `faults`; no entries say that
+    the ledger is not judged. `failed` names jobs, with their logs, and `passed` the targets that
+    judge and have passed; `stopped` says that a job failed or that the run was interrupted.
+    `config` are the arguments of --config, to be repeated.
     """
     rows = verdict_table.gather(verdicts)
-    ledger = [] if entries is None else csv_tables.read_rows(LEDGER, outcome.COLUMNS)
-    wrong = faults(rows, ledger, comparisons, entries or ())
-    parts = ["" if rows else "No verdict in this run. Pictures: figures/"]
+    ledger = csv_tables.read_rows(LEDGER, outcome.COLUMNS) if entries else []
+    wrong = faults(rows, ledger, comparisons, entries)
+    parts = [""]
     if len(verdicts) > 1:
         known = sum(row["verdict"] in verdict_table.DIFFERENCES for row in rows)
         parts += [figure_table.text(figure_table.of_run(rows)), "", verdict_table.counts(rows)]
@@ -77,18 +79,18 @@ def last_words(
     elif verdicts:
         parts += [verdict_table.text(rows), f"All columns: {verdicts[0]}"]
     parts += [outcome.summary(ledger)] if ledger else []
+    parts += [f"failed: {job} (log: {log})" for job, log in failed.items()]
     if wrong:
         again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
         parts += [f"On purpose? To draw without being judged:  {shlex.join(again)}"]
-        parts += [
-            f"FAILED. Reasons: {len(wrong)}",
-            *(f"  {fault}" for fault in wrong[:MOST_FAULTS]),
-        ]
-        parts += [f"  and more: {', '.join(failed.values())}"] if len(wrong) > MOST_FAULTS else []
-    elif stopped:
-        parts += [f"failed: {job} (log: {log})" for job, log in failed.items()] + [STOPPED]
-    elif entries is not None:
-        parts += [NEXT]
-    elif rows:
+        parts += [f"FAILED. Reasons: {len(wrong)}"]
+        parts += [f"  {fault}" for fault in wrong[:MOST_FAULTS]]
+        more = len(wrong) - MOST_FAULTS
+        parts += [f"  and {more} more: results/verdicts/, {LEDGER}"] if more > 0 else []
+    elif "all" in passed:
+        parts += [PASSED]
+    elif passed:
         parts += ["No comparison fails. The verdict of all: snakemake --cores 2"]
+    else:
+        parts += [STOPPED if stopped else "Not judged. Pictures and pages: figures/"]
     return "\n".join(parts) + "\n"

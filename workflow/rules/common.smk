@@ -107,13 +107,20 @@ def priority(wildcards):
 
 def last_words(stopped):
     """What the run says at its end, by the tables that are up to date then."""
-    ended = set(workflow.dag.jobs) - set(workflow.dag.needrun_jobs())
-    done = {path for job in ended for path in job.output}
-    judged = {f"results/verdicts/{name}.csv": name for name in JUDGED}
-    tables = [table for table in judged if table in done]
-    failed = {
-        f"{job.name} {' '.join(job.wildcards)}".strip(): f"{job.log}" for job in workflow.scheduler.failed
-    }
-    run = ENTRIES if gate.LEDGER in done else None
-    rows = rows_of(judged[table] for table in tables)
-    return gate.last_words(tables, rows, run, failed, stopped, workflow.config_settings.config_args or [])
+    jobs, dag = list(workflow.dag.jobs), workflow.dag
+    failed = [job for job in workflow.scheduler.failed if job.output]  # but for the gates
+    done = {path for job in set(jobs) - set(dag.needrun_jobs()) for path in job.output}
+    targets = {"all": JUDGED, "paper": PAPER, **{name: [name] for name in JUDGED}}
+    asked = {job.rule.name for job in jobs} & targets.keys()
+    judged = [name for name in JUDGED if any(name in targets[target] for target in asked)]
+    tables = {name: f"results/verdicts/{name}.csv" for name in judged}
+    tables = {name: table for name, table in tables.items() if table in done}
+    return gate.last_words(
+        list(tables.values()),
+        rows_of(tables),
+        ENTRIES if "all" in asked and gate.LEDGER in done else [],
+        {f"{job.name} {' '.join(job.wildcards)}".strip(): f"{job.log}" for job in failed},
+        {job.rule.name for job in jobs if job.rule.name in asked and dag.finished(job)},
+        stopped,
+        workflow.config_settings.config_args or [],
+    )
