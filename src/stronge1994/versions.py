@@ -9,15 +9,16 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-import planarimpact
-
 PACKAGES = ("numpy", "scipy", "matplotlib", "pandas", "snakemake")
 NO_COMMIT = "unknown: not a git checkout, or git is missing"
 
 
-def installed() -> dict[str, str]:
-    """Versions of Python, of this package and of those that a run uses, `{name: version}`."""
-    own = {"python": platform.python_version(), "planarimpact": planarimpact.__version__}
+def installed(solver: str) -> dict[str, str]:
+    """Versions of Python, of the `solver` and of packages that a run uses, `{name: version}`.
+
+    That of the solver is given: pictures import this module, and so would depend on all of it.
+    """
+    own = {"python": platform.python_version(), "planarimpact": solver}
     return own | {name: metadata.version(name) for name in PACKAGES}
 
 

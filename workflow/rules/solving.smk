@@ -7,7 +7,7 @@ rule versions:
     conda:
         "../envs/planarimpact.yaml"
     params:
-        versions=lambda _: json.dumps(versions.installed()),
+        versions=lambda _: json.dumps(versions.installed(planarimpact.__version__)),
     shell:
         "echo {params.versions:q} > {output} 2> {log}"
 
