@@ -87,10 +87,12 @@ def last_words(
         parts += [f"  {fault}" for fault in wrong[:MOST_FAULTS]]
         more = len(wrong) - MOST_FAULTS
         parts += [f"  and {more} more: results/verdicts/, {LEDGER}"] if more > 0 else []
+    elif stopped:
+        parts += [STOPPED]
     elif "all" in passed:
         parts += [PASSED]
     elif passed:
         parts += ["No comparison fails. The verdict of all: snakemake --cores 2"]
     else:
-        parts += [STOPPED if stopped else "Not judged. Pictures and pages: figures/"]
+        parts += ["Not judged. Pictures and pages: figures/"]
     return "\n".join(parts) + "\n"
