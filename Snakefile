@@ -20,7 +20,7 @@ rule all:
     default_target: True
     input:
         verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
-        ledger=["results/ledger.csv"],
+        ledger="results/ledger.csv",
         made=made(JUDGED),
         pages=PAGES,
     log:
@@ -32,25 +32,6 @@ rule all:
         entries=ENTRIES,
     script:
         "workflow/scripts/gate.py"
-
-
-# These are judged as `all` is, by their own rows.
-for target, names in {"paper": PAPER, **{name: [name] for name in JUDGED}}.items():
-
-    rule:
-        name:
-            target
-        input:
-            verdicts=expand("results/verdicts/{judged}.csv", judged=names),
-            made=made(names),
-        log:
-            f"results/logs/{target}.log",
-        conda:
-            "workflow/envs/planarimpact.yaml"
-        params:
-            rows=rows_of(names),
-        script:
-            "workflow/scripts/gate.py"
 
 
 rule figures:
@@ -65,6 +46,28 @@ rule notebooks:
         "results/curves/trade.csv",
         rules.trade_tables.output,
         expand(rules.lecture.output, notebook=NOTEBOOKS),
+
+
+# What can be asked for alone: Figs 2 to 9, each figure, each scene.
+for target, names in [("paper", PAPER), *((name, [name]) for name in JUDGED)]:
+    if workflow.is_rule(target):
+        raise WorkflowError(f"src/stronge1994/figures/{target}: a rule has this name, give it another")
+
+    rule:
+        """Drawn, and judged as `all` is, by its own rows."""
+        name:
+            target
+        input:
+            verdicts=expand("results/verdicts/{judged}.csv", judged=names),
+            made=made(names),
+        log:
+            f"results/logs/{target}.log",
+        conda:
+            "workflow/envs/planarimpact.yaml"
+        params:
+            rows=rows_of(names),
+        script:
+            "workflow/scripts/gate.py"
 
 
 onsuccess:

@@ -92,7 +92,8 @@ def last_words(
     elif "all" in passed:
         parts += [PASSED]
     elif passed:
-        parts += ["No comparison fails. The verdict of all: snakemake --cores 2"]
+        parts += ["No comparison fails." if rows else "There is nothing to compare."]
+        parts += ["The verdict of all: snakemake --cores 2"]
     else:
         parts += ["Not judged. Pictures and pages: figures/"]
     return "\n".join(parts) + "\n"

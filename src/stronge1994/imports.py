@@ -11,8 +11,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 SRC = Path(__file__).resolve().parents[1]
-IMPORT = re.compile(r"^ *(?:from ([\w.]+) import (\([^)]*\)|.+)|import ([\w., ]+))", re.M)
-DATA = (".npz", ".toml", ".txt", ".h", ".mjs")  # what a package brings along beside its modules
+IMPORT = re.compile(r"^ *(?:from (\.*)([\w.]*) import (\([^)]*\)|.+)|import ([\w., ]+))", re.M)
+# Beside modules all files count, as they may be read: data, templates. Settings are `params`.
+NO_DATA = (".py", ".pyc", ".md", ".yaml")
 
 
 def digest(paths: Iterable[str | Path]) -> str:
@@ -32,31 +33,27 @@ def digest(paths: Iterable[str | Path]) -> str:
 
 
 def _files(path: Path) -> list[Path]:
-    known = (".py", *DATA)
-    return [p for p in path.rglob("*") if p.suffix in known] if path.is_dir() else [path]
+    return [p for p in path.rglob("*.*") if p.suffix == ".py"] if path.is_dir() else [path]
 
 
 @functools.cache
 def _of_file(path: Path) -> tuple[str, list[Path]]:
     """Name of a file and hash of it, and the files that it imports."""
-    content, imported = path.read_bytes(), [*_data(path.parent)]
-    text = content.decode() if path.suffix == ".py" else ""
-    for package, names, modules in IMPORT.findall(text):
+    content, is_code = path.read_bytes(), path.suffix == ".py"
+    imported = [*_data(path.parent)] if is_code else []
+    for dots, package, names, modules in IMPORT.findall(content.decode() if is_code else ""):
+        base = path.parents[len(dots) - 1] if dots else SRC
         for name in re.findall(r"[\w.]+", re.sub(r"#.*| as \w+", "", names or modules)):
-            imported += _module(f"{package}.{name}".lstrip(".")) or _module(package)
+            imported += _module(base, f"{package}.{name}".strip(".")) or _module(base, package)
     return f"{path.relative_to(SRC.parent)} {hashlib.sha256(content).hexdigest()}", imported
 
 
-def _module(name: str) -> list[Path]:
-    path = SRC / name.replace(".", "/")
+def _module(base: Path, name: str) -> list[Path]:
+    path = base / name.replace(".", "/")
     return [file for file in (path.with_suffix(".py"), path / "__init__.py") if file.is_file()]
 
 
 @functools.cache
 def _data(folder: Path) -> list[Path]:
-    return [
-        path
-        for pattern in ("*", "templates/*")
-        for path in folder.glob(pattern)
-        if path.suffix in DATA
-    ]
+    files = [path for pattern in ("*", "templates/*") for path in folder.glob(pattern)]
+    return [path for path in files if path.is_file() and path.suffix not in NO_DATA]

@@ -30,7 +30,8 @@ for folder in ("data", "figures", "results", "src", "workflow"):
             )
 LEDGER = "data/stronge1994/ledger.yaml"
 try:
-    # In place of `configfile:`, as strict YAML. In `config` Snakemake has put what it takes --config for.
+    # In place of `configfile:`: workflow/config.yaml over each figure.yaml, --configfile and --config over
+    # both. They are read as strict YAML; what Snakemake makes of --config is not used.
     config = configuration.load(
         [configuration.FILE, *workflow.config_settings.configfiles],
         workflow.config_settings.config_args or (),
@@ -44,7 +45,7 @@ except reference_data.SourceError as error:
     raise WorkflowError(str(error))
 
 PAPER = [figure for figure in FIGURES if is_of_paper(figure)]
-TIMED, SLIDES = figures.with_trait("timed"), figures.with_trait("slide")
+TIMED, SLIDES = figures.with_trait("timed"), figures.with_trait("slide")  # as figure.yaml says
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 
 
@@ -59,7 +60,8 @@ def digest(*paths):
     """A param: one hash of all code of a job, so that Snakemake runs it again if a module has changed.
 
     `paths` are files or folders, with wildcards in braces, or functions of the wildcards. What they
-    import from src counts too, directly or not: see `stronge1994.imports`.
+    import from src counts too, directly or not: see `stronge1994.imports`. A file of data/ is an input, by
+    its date, and stands here, too: a copy that replaces it may have an older date.
     """
 
     def of_job(wildcards):
@@ -70,12 +72,12 @@ def digest(*paths):
 
 
 def of_figure(part):
-    """An input or a param: a part of `settings.of_figure`."""
+    """A part of `settings.of_figure`: settings of curves and drawing, `tables` to solve, `series` to draw."""
     return lambda wildcards: FIGURES[wildcards.figure][part]
 
 
 def of_judged(part):
-    """An input or a param: a part of `settings.of_judgement`."""
+    """A part of `settings.of_judgement`: settings, `table` of curves or of a scene, `series` to compare."""
     return lambda wildcards: JUDGED[wildcards.judged][part]
 
 
@@ -107,11 +109,14 @@ def priority(wildcards):
 
 
 def last_words(stopped):
-    """What the run says at its end, by the tables that are up to date then."""
+    """What the run says at its end, by the tables that are up to date then.
+
+    Snakemake's graph of jobs tells which. It is no public interface: so Snakemake is pinned.
+    """
     jobs, dag = list(workflow.dag.jobs), workflow.dag
     failed = [job for job in workflow.scheduler.failed if job.output]  # but for the gates
     done = {path for job in set(jobs) - set(dag.needrun_jobs()) for path in job.output}
-    targets = {"all": JUDGED, "paper": PAPER, **{name: [name] for name in JUDGED}}
+    targets = {"all": JUDGED, "paper": PAPER} | {name: [name] for name in JUDGED}
     asked = {job.rule.name for job in jobs} & targets.keys()
     judged = [name for name in JUDGED if any(name in targets[target] for target in asked)]
     tables = {name: f"results/verdicts/{name}.csv" for name in judged}
@@ -121,7 +126,11 @@ def last_words(stopped):
         rows_of(tables),
         ENTRIES if "all" in asked and gate.LEDGER in done else [],
         {f"{job.name} {' '.join(job.wildcards)}".strip(): f"{job.log}" for job in failed},
-        {job.rule.name for job in jobs if job.rule.name in asked and dag.finished(job)},
+        {
+            job.rule.name
+            for job in jobs
+            if job.rule.name in asked and dag.finished(job) and not workflow.touch
+        },
         stopped,
         workflow.config_settings.config_args or [],
     )

@@ -1,5 +1,5 @@
 rule versions:
-    """What solves and draws: the versions of Python, of this package and of the libraries."""
+    """Versions of Python, of this package and of the libraries: with another one all is made anew."""
     output:
         "results/versions.json",
     log:
@@ -24,7 +24,7 @@ rule curves:
     priority: priority
     conda:
         "../envs/planarimpact.yaml"
-    resources:
+    resources:  # the profile allows one timed job at once
         timed=lambda wildcards: int(wildcards.figure in TIMED),
     params:
         settings=of_figure("curves"),

@@ -7,7 +7,8 @@ sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
 from stronge1994 import csv_tables, gate
 from stronge1994.verdict_tables import verdict_table
 
-ledger = [row for table in snakemake.input.get("ledger", []) for row in csv_tables.read_rows(table)]
+table = snakemake.input.get("ledger")
+ledger = csv_tables.read_rows(table) if table else []
 verdicts = verdict_table.gather(snakemake.input.verdicts)
 faults = gate.faults(verdicts, ledger, snakemake.params.rows, snakemake.params.get("entries", []))
 if faults:
