@@ -1,4 +1,4 @@
-"""The figure of workflow/README.md, added as it stands there: two folders, and nothing else."""
+"""The figure of workflow/add_a_figure.md, added as it stands: two folders, and nothing else."""
 
 import json
 import re
@@ -11,7 +11,7 @@ JOBS = ["all", "report"]
 
 
 def test_a_figure_of_the_readme_is_drawn_and_judged_alone(fresh):
-    text = (ROOT / "workflow/README.md").read_text(encoding="utf-8").split("## Add a figure")[1]
+    text = (ROOT / "workflow/add_a_figure.md").read_text(encoding="utf-8")
     files = dict(FILE.findall(text))
     assert sorted(path.rpartition("/")[2] for path in files) == [
         "curves.py", "drawing.py", "figure.yaml", "source.yaml", "velocity.csv",
