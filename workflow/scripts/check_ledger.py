@@ -1,8 +1,8 @@
 """Check every entry of the ledger against the paper's model."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from stronge1994 import csv_tables, reference_data
 from stronge1994.ledger import checking, entries, outcome

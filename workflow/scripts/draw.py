@@ -1,8 +1,8 @@
 """Draw one figure from its curves, and its slide if it has one."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from stronge1994 import versions
 from stronge1994.figures.shared import drawing as drawings

@@ -2,7 +2,9 @@
 
 import sys
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+from stronge1994 import logs
+
+logs.to(snakemake.log[0])
 
 from stronge1994 import csv_tables, gate
 from stronge1994.verdict_tables import verdict_table

@@ -1,8 +1,8 @@
 """Compare one table of a run with reference data."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from stronge1994 import judging, one_thread  # noqa: F401  (one thread: before numpy)
 

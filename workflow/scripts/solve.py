@@ -1,8 +1,8 @@
 """Solve the curves of one figure."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
 from stronge1994.figures.shared.curves import solving

@@ -1,8 +1,8 @@
 """Solve one scene. Which model took how many impacts, and why, goes to the log."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from planarimpact.scene import files
 

@@ -1,8 +1,8 @@
 """Write the page to throw a ball, with answers by which it checks itself, and the start page."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from pathlib import Path
 

@@ -1,8 +1,8 @@
 """Write the run as pages: the report, its sources and settings, the note, the ledger."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from stronge1994.pages import report
 

@@ -1,8 +1,8 @@
 """Put all pages of a run and those of the interface into one folder, and pack it."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from stronge1994.pages import interface, site
 

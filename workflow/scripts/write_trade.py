@@ -1,8 +1,8 @@
 """Write error against time as two tables: every way sorted, and the cheapest to each tolerance."""
 
-import sys
+from stronge1994 import logs
 
-sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+logs.to(snakemake.log[0])
 
 from stronge1994.figures.trade import answers
 
