@@ -1,6 +1,7 @@
 """Decide whether a run is good by its tables, and tell it at the end."""
 
 import shlex
+import textwrap
 from collections.abc import Collection, Mapping, Sequence
 
 from stronge1994 import csv_tables
@@ -11,18 +12,19 @@ from stronge1994.verdict_tables import figure_table, verdict_table
 LEDGER, REPORT = "results/ledger.csv", "figures/report.html"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 KNOWN = (
-    "Solved right: our own check only; largest difference in the axis' unit, and in sigmas,\n"
-    "of which 1 is allowed. Beside others: the paper's model. A run also fails if one of the\n"
+    "Solved right: our own check only; largest difference in the axis' unit, and in sigmas, "
+    "of which 1 is allowed. Beside others: the paper's model. A run also fails if one of the "
     f"{{}} known differences changes: {REPORT}#known has cause, size and bound of each."
 )
 PASSED = f"""\
-PASSED. Each comparison: results/verdicts.csv, {LEDGER}; pictures: figures/
-Look:     {REPORT}, open it in a browser: the table above, with reasons
-Play:     figures/explorer.html
-Change:   workflow/config.yaml, and run again: only what depends on it is redone"""
-STOPPED = """\
-Stopped before the end: what is not made anew is missing or of an earlier run. Type the same
-command again, what was finished is kept. Usual causes: workflow/README.md, Troubleshooting."""
+PASSED. Each comparison: results/verdicts.csv, {LEDGER}
+Look:    {REPORT} in a browser: the table above, with reasons
+Play:    figures/explorer.html
+Change:  workflow/config.yaml, and run again: only what depends on it is redone"""
+STOPPED = (
+    "Stopped before the end: what is not made anew is missing or of an earlier run. Type the same "
+    "command again, what was finished is kept. Usual causes: workflow/README.md, Troubleshooting."
+)
 
 
 def faults(
@@ -74,8 +76,9 @@ def last_words(
     parts = [""]
     if len(verdicts) > 1:
         known = sum(row["verdict"] in verdict_table.DIFFERENCES for row in rows)
-        parts += [figure_table.text(figure_table.of_run(rows)), "", verdict_table.counts(rows)]
-        parts += [KNOWN.format(known)]
+        parts += [figure_table.text(figure_table.of_run(rows)), ""]
+        parts += [_filled(line) for line in verdict_table.counts(rows).splitlines()]
+        parts += [_filled(KNOWN.format(known))]
     elif verdicts:
         parts += [verdict_table.text(rows), f"All columns: {verdicts[0]}"]
     parts += [outcome.summary(ledger)] if ledger else []
@@ -84,11 +87,11 @@ def last_words(
         again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
         parts += [f"On purpose? To draw without being judged:  {shlex.join(again)}"]
         parts += [f"FAILED. Reasons: {len(wrong)}"]
-        parts += [f"  {fault}" for fault in wrong[:MOST_FAULTS]]
+        parts += [_filled(fault) for fault in wrong[:MOST_FAULTS]]
         more = len(wrong) - MOST_FAULTS
         parts += [f"  and {more} more: results/verdicts/, {LEDGER}"] if more > 0 else []
     elif stopped:
-        parts += [STOPPED]
+        parts += [_filled(STOPPED)]
     elif "all" in passed:
         parts += [PASSED]
     elif passed:
@@ -97,3 +100,8 @@ def last_words(
     else:
         parts += ["Not judged. Pictures and pages: figures/"]
     return "\n".join(parts) + "\n"
+
+
+def _filled(text: str) -> str:
+    """A sentence in lines for a terminal of 80: the logger would break it anywhere."""
+    return textwrap.fill(text, 79, subsequent_indent="  ", break_on_hyphens=False)
