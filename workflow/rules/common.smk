@@ -15,7 +15,7 @@ os.environ.update(PYTHONPATH=sys.path[0])
 # folder `OneDrive - NTNU` would break it.
 sys.executable = shlex.quote(sys.executable)
 # Ctrl-C ends a job once it has its log, see `stronge1994.logs`; before that it would fill the terminal.
-shell.prefix("trap '' INT; ")
+shell.prefix("set -euo pipefail; trap '' INT; ")
 import planarimpact
 from stronge1994 import gate, imports, reference_data, settings, versions
 from stronge1994.curve_names import is_of_paper
