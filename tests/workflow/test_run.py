@@ -112,6 +112,11 @@ def test_another_version_of_a_package_runs_everything_again(tree, tmp_path):
     assert every == again > {"versions", "explorer", "draw_fig9"}
 
 
+def test_the_paper_is_eight_figures_drawn_and_judged(tree):
+    figures = [f"{job}_fig{n}" for job in ("curves", "draw", "judge") for n in range(2, 10)]
+    assert tree.jobs("paper") == ({"versions", *figures}, set())
+
+
 def test_settings_of_the_command_line_are_drawn_without_judgement(tree):
     change = "figures={fig6: {as_printed: false}, superball: {throw: {bounces: 5}}}"
     assert tree.jobs("figures", "--config", change)[1] == {
