@@ -58,6 +58,7 @@ REPRODUCTION = {
     "settings": "reference_data curve_names",
     "imports": "",
     "versions": "",
+    "logs": "",
     "gate": "csv_tables verdict_tables ledger",
     "pages": "ground bodies export csv_tables reference_data figures formulas goodness judging"
     " ledger settings gate versions curve_names verdict_tables jinja2",

@@ -33,7 +33,7 @@ def digest(paths: Iterable[str | Path]) -> str:
 
 
 def _files(path: Path) -> list[Path]:
-    return [p for p in path.rglob("*.*") if p.suffix == ".py"] if path.is_dir() else [path]
+    return [*path.rglob("[!.]*.py")] if path.is_dir() else [path]  # hidden ones are of an editor
 
 
 @functools.cache
@@ -55,5 +55,5 @@ def _module(base: Path, name: str) -> list[Path]:
 
 @functools.cache
 def _data(folder: Path) -> list[Path]:
-    files = [path for pattern in ("*", "templates/*") for path in folder.glob(pattern)]
+    files = [path for pattern in ("[!.]*", "templates/[!.]*") for path in folder.glob(pattern)]
     return [path for path in files if path.is_file() and path.suffix not in NO_DATA]

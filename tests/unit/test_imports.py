@@ -16,11 +16,13 @@ REACHED = {
     "src/house/garden.py": "from house.roof import tile\n",
     "src/house/shed.py": "from house.rooms import hall  # round in a circle\n",
     "src/house/roof/__init__.py": "tile = 1\n",
-    "src/house/tools/drill.py": "import numpy\n",
+    "src/house/tools/drill.py": "import numpy\nfrom . import bolt\nfrom ..shed import door\n",
+    "src/house/tools/bolt.py": "",
     "src/house/tools/sizes.toml": "",
-    "src/house/tools/templates/form.h": "",
+    "src/house/tools/templates/form.jinja2": "",
 }
 OTHERS = {"src/house/rooms/__init__.py": "", "src/house/attic.py": "", "src/house/tools/a.md": ""}
+OTHERS |= {"src/house/tools/.drill.swp": "", "src/house/rooms/.#hall.py": ""}
 
 
 @pytest.fixture
@@ -76,7 +78,7 @@ def test_solving_and_drawing_wait_for_their_own_modules(paths, edited, counts, d
 
 def test_no_import_is_hidden_from_the_digest():
     """A module that is imported by a name made at run time stands in the rule that needs it."""
-    hidden = r"^ *from \.|import_module\(|__import__|runpy|^ *(?:.*;|.*:) *import "
+    hidden = r"import_module\(|__import__|runpy|^ *(?:.*;|.*:) *import "
     texts = {path.relative_to(SRC): path.read_text("utf-8") for path in SRC.rglob("*.py")}
     assert {f"{path}" for path, text in texts.items() if re.search(hidden, text, flags=re.M)} == {
         "stronge1994/figures/shared/curves/solving.py",
