@@ -23,6 +23,8 @@ from stronge1994.ledger import entries
 from stronge1994.settings import config as configuration
 from stronge1994.settings import figures
 
+if set("{}") & set(workflow.basedir):
+    raise WorkflowError(f"{workflow.basedir}: Snakemake takes braces for a wildcard: rename the folder")
 # Snakemake would end the first job that reads such a file, and remove what the job has made.
 for folder in ("data", "figures", "results", "src", "workflow"):
     for path in Path(folder).rglob("*.*"):

@@ -58,6 +58,7 @@ rule ledger:
     input:
         versions="results/versions.json",
         entries="data/stronge1994/ledger.yaml",
+        facts="data/stronge1994/source.yaml",  # to which entries refer
         schema="workflow/schemas/ledger.schema.yaml",
     output:
         table="results/ledger.csv",
@@ -69,7 +70,10 @@ rule ledger:
         "../envs/planarimpact.yaml"
     params:
         content=digest(
-            "workflow/scripts/check_ledger.py", "src/stronge1994/ledger", "data/stronge1994/ledger.yaml"
+            "workflow/scripts/check_ledger.py",
+            "src/stronge1994/ledger",
+            "data/stronge1994/ledger.yaml",
+            "data/stronge1994/source.yaml",
         ),
     script:
         "../scripts/check_ledger.py"
