@@ -1,5 +1,6 @@
 # What the rules share: settings, checked before any work, values of wildcards, and functions for inputs.
 import json
+import logging
 import os
 import shlex
 import sys
@@ -14,6 +15,8 @@ os.environ.update(PYTHONPATH=sys.path[0])
 # Snakemake puts this path into the command of a script without quotes (its issue 2645): the blanks of a
 # folder `OneDrive - NTNU` would break it.
 sys.executable = shlex.quote(sys.executable)
+# Where a job could not begin its log, on a full disk, the logger of the profile would show its own traceback.
+logging.raiseExceptions = False
 # Ctrl-C ends a job once it has its log, see `stronge1994.logs`; before that it would fill the terminal.
 shell.prefix("set -euo pipefail; trap '' INT; ")
 import planarimpact
@@ -26,12 +29,17 @@ from stronge1994.settings import figures
 if set("{}") & set(workflow.basedir):
     raise WorkflowError(f"{workflow.basedir}: Snakemake takes braces for a wildcard: rename the folder")
 # Snakemake would end the first job that reads such a file, and remove what the job has made.
-for folder in ("data", "figures", "results", "src", "workflow"):
-    for path in Path(folder).rglob("*.*"):
-        if path.is_file() and path.stat().st_mtime > time.time():
-            raise WorkflowError(
-                f"{path}: its date lies in the future. Give it the date of today: touch {path}"
-            )
+FOLDERS = ["data", "figures", "results", "src", "workflow"]
+LATER = [
+    path
+    for folder in FOLDERS
+    for path in Path(folder).rglob("*.*")
+    if path.is_file() and path.stat().st_mtime > time.time()
+]
+if LATER:
+    mend = f"find {' '.join(FOLDERS)} -newermt now -exec touch {{}} +" if LATER[1:] else f"touch {LATER[0]}"
+    others = f", so do those of {len(LATER) - 1} others" if LATER[1:] else ""
+    raise WorkflowError(f"{LATER[0]}: its date lies in the future{others}. Give today's date: {mend}")
 LEDGER = "data/stronge1994/ledger.yaml"
 try:
     # In place of `configfile:`: workflow/config.yaml over each figure.yaml, --configfile and --config over
