@@ -37,6 +37,6 @@ def pytest_collection_modifyitems(config, items):
 def _turn(path):
     """Stories of runs take longest and start first. What is short comes last, so that no process is
     left alone with a long file."""
-    if path.name in ("test_proof.py", "test_run.py"):
+    if path.name == "test_run.py":
         return 0
     return {"property": 1, "reference": 1, "workflow": 2}.get(path.parent.name, 3)

@@ -47,18 +47,21 @@ REPRODUCTION = {
     "goodness": "ground",
     "reference_data": "ground csv_tables",
     "printed": "ground lumped",
-    "explorer": "planarimpact lumped continuum bodies collision reference_data pages",
+    "explorer": "planarimpact ground lumped continuum bodies collision reference_data pages",
     "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
-    " fit scene pandas printed csv_tables curve_names figures plan",
+    " fit scene pandas printed csv_tables curve_names figures settings",
     "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
     " verdict_tables matplotlib",
     "ledger": "ground bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
     "judging": "ground csv_tables curve_names formulas goodness reference_data verdict_tables",
-    "run": "csv_tables verdict_tables ledger matplotlib",
-    "plan": "reference_data curve_names",
+    "settings": "reference_data curve_names",
+    "imports": "",
+    "versions": "",
+    "logs": "",
+    "gate": "csv_tables verdict_tables ledger",
     "pages": "ground bodies export csv_tables reference_data figures formulas goodness judging"
-    " ledger plan run curve_names verdict_tables jinja2",
+    " ledger settings gate versions curve_names verdict_tables jinja2",
 }
 # The figures have one folder each, and in it files that solve and files that draw, or that judge
 # what is drawn.
@@ -167,7 +170,7 @@ def test_rooms_enter_only_where_they_may(package, room):
         ("planarimpact", "lumped", "def late():\n    import planarimpact.rigid"),
         ("planarimpact", "models", "from planarimpact.continuum import tangential_motion"),
         ("planarimpact", "models", "import pandas as pd"),
-        ("planarimpact", "rigid", "from stronge1994 import run"),
+        ("planarimpact", "rigid", "from stronge1994 import gate"),
         ("stronge1994", "figures/drawing", "from planarimpact.lumped import rebound"),
         ("stronge1994", "figures/drawing", "from stronge1994.figures.fig5 import curves"),
         ("stronge1994", "figures/solving", "from planarimpact.lumped.stick_slip import solve"),

@@ -1,7 +1,7 @@
 """Tables as CSV: named curves, and rows of any other kind.
 
 The first column of a table of curves has the name of the curve. Each other column is a quantity,
-its unit in brackets. A job that failed leaves tables with the single column `error`.
+its unit in brackets.
 """
 
 import csv
@@ -20,10 +20,6 @@ Curves: TypeAlias = dict[str, Columns]
 # A row of any other table: its cells as text, by the names of the columns.
 Row: TypeAlias = dict[str, str]
 Path: TypeAlias = str | PathLike[str]
-
-
-class Failed(Exception):
-    """The table holds the error of the job that should have made it."""
 
 
 def refuse_not_finite(named: Mapping[str, Columns]) -> None:
@@ -83,12 +79,9 @@ def read(path: Path) -> Curves:
 
 
 def read_rows(path: Path, columns: Iterable[str] = ()) -> list[Row]:
-    """Rows of a table, as `numbered_rows`; `Failed` says why a job has made no table."""
+    """Rows of a table, as `numbered_rows`."""
     with open(path, newline="", encoding="utf-8") as file:
-        text = file.read()
-    if text.startswith("error\n"):
-        raise Failed(numbered_rows(text, path)[0][1]["error"])
-    return [row for _, row in numbered_rows(text, path, columns)]
+        return [row for _, row in numbered_rows(file.read(), path, columns)]
 
 
 def numbered_rows(text: str, path: Path, columns: Iterable[str] = ()) -> list[tuple[int, Row]]:

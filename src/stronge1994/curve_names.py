@@ -43,8 +43,8 @@ UNITS = {
 
 
 def is_of_paper(figure: str) -> bool:
-    """Whether a figure is one of the paper's."""
-    return figure.startswith("fig") and figure[3:].isdigit()
+    """Whether a figure is one of Figs 2 to 9 of the paper."""
+    return re.fullmatch("fig[2-9]", figure) is not None
 
 
 def name(symbol: str, value: float) -> str:

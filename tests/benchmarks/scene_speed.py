@@ -3,9 +3,10 @@
 OMP_NUM_THREADS=1 python tests/benchmarks/scene_speed.py
 
 First each sphere has its own pair, so that no two have the same groups. Then there are 20 pairs of
-materials that the table of spheres does not cover, half of them elastic: workflow/README.md states
-80 s and 0.75 GB. Times are those of the clock from the start of the command to its end, and in
-brackets those of the processor. The memory is the largest that was resident.
+materials that the table of spheres does not cover, half of them elastic:
+workflow/examples/cluster/README.md states 80 s and 0.75 GB. Times are those of the clock from the
+start of the command to its end, and in brackets those of the processor. The memory is the largest
+that was resident.
 """
 
 import os

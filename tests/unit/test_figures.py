@@ -3,7 +3,7 @@
 import contextlib
 from unittest import mock
 
-from stronge1994.plan import figures
+from stronge1994.settings import figures
 
 GOOD = """\
 shows: a curve of mine

@@ -6,7 +6,7 @@ from pathlib import Path
 import yaml
 
 from stronge1994 import formulas, ledger
-from stronge1994.plan import figures
+from stronge1994.settings import figures
 
 ROOT = Path(__file__).parents[2]
 

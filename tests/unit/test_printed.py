@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from planarimpact import continuum, lumped
-from stronge1994 import plan
+from stronge1994 import settings as figure_settings
 from stronge1994.figures.fig5 import curves as fig5
 from stronge1994.figures.fig6 import curves as fig6
 from stronge1994.figures.fig7 import curves as fig7
@@ -63,7 +63,7 @@ def quick(monkeypatch):
 
 @pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: figure.__name__.split(".")[-2])
 def test_as_printed_curves_are_added_on_request_and_change_no_other(figure, quick):
-    settings = plan.settings(config(), sources(), figure.__name__.split(".")[-2])
+    settings = figure_settings.physics(config(), sources(), figure.__name__.split(".")[-2])
     settings |= FIGURES[figure] | {"samples": 101}
     plain, both = (figure.curves(**settings | {"as_printed": it}) for it in (False, True))
     added = [name for name in both if name not in plain]

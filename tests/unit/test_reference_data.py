@@ -5,7 +5,7 @@ import pytest
 
 from stronge1994 import reference_data
 from stronge1994.judging import points
-from stronge1994.plan import config as configuration
+from stronge1994.settings import config as configuration
 from tests.workflow.project import config, sources
 
 AXES = {
@@ -44,12 +44,11 @@ def test_a_point_may_lie_three_sigmas_outside_the_range(tmp_path):
 
 @pytest.mark.parametrize("text", ["4e-1", "0.4", "4E-1", "+.4e0", "4.e-01", "40e-2"])
 def test_a_number_of_yaml_may_have_any_notation(text, tmp_path):
-    """In all files and in --config, which Snakemake reads, the same."""
+    """In all files and in --config the same."""
     path = tmp_path / "a.yaml"
     path.write_text(f"sigma: {text}\ntext: [4e-1 m, '{text}']\n")
     assert reference_data.load_yaml(path) == {"sigma": 0.4, "text": ["4e-1 m", text]}
-    assert configuration.with_values({"sigma": text}) == {"sigma": 0.4}
-    configuration.refuse_misread_values([f"sigma={text}"])
+    assert configuration.load([], [f"sigma={text}"])["sigma"] == 0.4
 
 
 def test_a_merge_may_be_overridden_and_merged_again(tmp_path):

@@ -45,7 +45,7 @@ def test_a_batch_that_would_take_too_long_is_left_out_for_its_model_alone():
 def test_a_velocity_that_is_no_number_shows():
     exact = models.rebound("lumped", [1.0, 2.0])
     found = trade.errors(exact._replace(velocity=exact.velocity * float("nan")), exact)
-    assert found[MAX] != found[MAX]  # NaN: the verdict `trade-solved` is then wrong
+    assert found[MAX] != found[MAX]  # NaN: then the table is not written
 
 
 def row(name, error, case=("1.0", ""), build="", times=("", ""), scatter="0.02"):

@@ -4,22 +4,14 @@ import json
 import os
 import subprocess
 import time
-from multiprocessing import forkserver
 
 import pytest
 
-from stronge1994 import plan
+from stronge1994 import settings
 from stronge1994.explorer import answers as explorer_answers
 from stronge1994.explorer import page as write_explorer
 from tests.workflow import browser, node, project
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, Project, copy_of
-
-collect_ignore = ["toy"]  # a workflow for test_proof.py
-
-
-def pytest_sessionfinish():
-    """End the process that starts Snakemake, so that its time is part of that of the tests."""
-    forkserver._forkserver._stop()
 
 
 def pytest_collection_modifyitems(items):
@@ -83,7 +75,7 @@ def explorer(tmp_path_factory, answers):
     """The explorer page, written as a run writes it."""
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
     sources = sorted((ROOT / "workflow/explorer").iterdir())
-    text = write_explorer.page(plan.settings_of_explorer(project.config()), sources, answers)
+    text = write_explorer.page(settings.of_explorer(project.config()), sources, answers)
     path.write_text(text, encoding="utf-8")
     return path
 

@@ -2,27 +2,20 @@
 
 import contextlib
 import functools
-import multiprocessing
 import os
-import re
 import shutil
 import subprocess
-import tempfile
-import time
+import sys
 from pathlib import Path
 
 from stronge1994 import reference_data
 from stronge1994.ledger import entries
-from stronge1994.plan import config as configuration
-from stronge1994.run import record
-from tests.workflow import started
+from stronge1994.settings import config as configuration
 
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
 PARTS += ["LICENSE", "CITATION.cff"]
 LEFT = ["results", "figures", ".snakemake"]  # by a run
-STARTS = multiprocessing.get_context("forkserver")
-STARTS.set_forkserver_preload(started.PRELOADED)
 TIMEOUT = 3600  # s, against a run that hangs, not against a busy machine
 
 
@@ -41,7 +34,7 @@ def schema(name):
 @functools.cache
 def config():
     """The config of the project, whole."""
-    return configuration.load(ROOT)
+    return configuration.load([ROOT / configuration.FILE])
 
 
 @functools.cache
@@ -50,35 +43,22 @@ def ledger():
     return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema("ledger"))
 
 
+@functools.cache
+def awaited():
+    """Names of the comparisons with a series of which there are no points yet."""
+
+    def waits(full):
+        return configuration.reference(sources(), full).get("kind") == "awaited"
+
+    stated = config()["comparisons"].items()
+    return [name for name, entry in stated if "reference" in entry and waits(entry["reference"])]
+
+
 def checked(change, data=None, folder=ROOT):
     """Check a change of the config as a start of Snakemake does, with other data if need be."""
-    changed = configuration.with_values(configuration.overridden(config(), change))
+    changed = configuration.overridden(config(), change)
     with contextlib.chdir(folder):
         configuration.check_config(changed, data or sources(), ledger())
-
-
-class Run:
-    """Snakemake at work, with its own group of processes."""
-
-    def __init__(self, folder, arguments):
-        number, words = tempfile.mkstemp(prefix="words", dir=folder.parent)
-        os.close(number)
-        self.words = Path(words)
-        self.process = STARTS.Process(target=started.start, args=(folder, arguments, words))
-        self.process.start()
-
-    def wait_for(self, there):
-        """Wait until there is what this function looks for."""
-        deadline = time.monotonic() + TIMEOUT
-        while not there():
-            assert time.monotonic() < deadline and "Complete log" not in self.words.read_text()
-            time.sleep(0.01)
-
-    def ended(self):
-        """Wait for the end. Output and errors are one text, `stdout`."""
-        self.process.join()
-        words = self.words.read_text(encoding="utf-8")
-        return subprocess.CompletedProcess([], self.process.exitcode, words)
 
 
 class Project:
@@ -87,40 +67,32 @@ class Project:
     def __init__(self, folder):
         self.folder = folder
 
-    def start(self, *arguments):
-        """Start snakemake here, and do not wait for it."""
-        return Run(self.folder, ["--cores", "2", *arguments])
+    def start(self, *arguments, python=sys.executable, **environment):
+        """Start snakemake here in an activated environment, with its own group of processes."""
+        environment = {"PATH": f"{Path(python).parent}:{os.environ['PATH']}"} | environment
+        return subprocess.Popen(
+            [python, "-m", "snakemake", "--cores", "2", *arguments],
+            cwd=self.folder,
+            env=os.environ | environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
 
-    def run(self, *arguments):
+    def run(self, *arguments, **more):
         """Run snakemake here; output and errors come back as one text in `stdout`."""
-        return self.start(*arguments).ended()
+        process = self.start(*arguments, **more)
+        said, _ = process.communicate(timeout=TIMEOUT)
+        return subprocess.CompletedProcess([], process.returncode, said)
 
-    def refuses_to_pass(self, *arguments):
-        """Run, and check that nothing says PASSED; what was printed."""
-        result = self.run(*arguments)
-        assert result.returncode != 0, result.stdout
-        assert "PASSED." not in result.stdout, result.stdout
-        assert not (self / "results/PASSED").exists()
-        return result.stdout
-
-    def passes(self, *arguments):
-        """Run, and check that all of it says PASSED; what was printed."""
-        result = self.run(*arguments)
-        assert result.returncode == 0 and "PASSED." in result.stdout, result.stdout
-        assert (self / "results/PASSED").exists()
-        return result.stdout
-
-    def planned(self, *arguments):
-        """How often each rule would run."""
-        result = self.run(*arguments, "--dry-run", "--quiet", "host")
-        assert result.returncode == 0, result.stdout
-        table = result.stdout.split("Job stats:")[-1].split("total")[0]
-        return {rule: int(n) for rule, n in re.findall(r"^(\w+) +(\d+)$", table, flags=re.M)}
-
-    def records(self):
-        """What each job has read and written: `{job: record}`."""
-        found = (self / record.FOLDER).glob("*.json")
-        return {path.stem: record.read(str(path)) for path in found}
+    def jobs(self, *arguments, **environment):
+        """Jobs of a run, by the names of their logs, and those of them that have work to do."""
+        table = self.run(*arguments, "--summary", **environment).stdout.partition("output_file")[2]
+        rows = [line.split("\t") for line in table.splitlines()[1:] if "\t" in line]
+        logs = {Path(log).stem: plan for *_, log, _, plan in rows}
+        assert logs, table
+        return set(logs), {job for job, plan in logs.items() if plan == "update pending"}
 
     def __truediv__(self, path):
         return self.folder / path

@@ -8,20 +8,16 @@ import numpy as np
 import pytest
 
 from planarimpact import continuum, lumped
-from stronge1994 import csv_tables, plan, reference_data
+from stronge1994 import csv_tables, reference_data
+from stronge1994 import settings as figure_settings
 from stronge1994.figures.fig8 import curves as fig8
 from stronge1994.judging import compare
-from tests.workflow.project import ROOT, config, schema, sources
+from tests.workflow.project import ROOT, awaited, config, schema
 
 CONFIG = config()
 RUBBER, LEWIS = "johnson1983/rubber_sphere", "lewis_rogers1988"
 # The awaited series, and what is compared with each.
-AWAITED = {
-    CONFIG["comparisons"][name]["reference"]: name
-    for figure in CONFIG["figures"]
-    for name, waits in plan.plan_of_judgement(CONFIG, sources(), figure)["rows"].items()
-    if waits
-}
+AWAITED = {CONFIG["comparisons"][name]["reference"]: name for name in awaited()}
 
 
 def filled(name, points):
@@ -43,7 +39,7 @@ def curves(inventory, tmp_path_factory):
     w = lumped.rebound(x, CONFIG["mass_ratio"], rubber, 1.0).velocity
     of_rubber = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": w}
     csv_tables.write(folder / "fig5.csv", {"lumped, rubber": of_rubber})
-    settings = plan.settings(CONFIG, inventory, "fig8") | {"samples": 180}
+    settings = figure_settings.physics(CONFIG, inventory, "fig8") | {"samples": 180}
     csv_tables.write(folder / "fig8.csv", fig8.curves(**settings))
     return folder
 
@@ -61,9 +57,9 @@ def judged(inventory, curves, tmp_path):
         csv_tables.write_rows(tmp_path / f"{name}.csv", header, zip(x, y, strict=True))
         (folder / "source.yaml").write_text(filled(name, len(x)))
         found = inventory | {source: reference_data.load(folder, schema("source"))}
-        references = plan.references(CONFIG, found, figure)
+        references = figure_settings.references(CONFIG, found, figure)
         path, rows = curves / f"{figure}.csv", {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]]}
-        return compare(figure, rows, references, path, CONFIG["significance"])[1]
+        return compare(figure, path, rows, references, CONFIG["significance"])[0]
 
     return row
 

@@ -27,7 +27,9 @@ def example(tmp_path):
 def test_each_table_of_a_folder_is_a_job(example):
     """Also by any name; and the parts of a table that the command of the README has cut."""
     (example / "huge.csv").write_text("".join(SHOTS[:21]))
-    (split,) = re.findall(r"^tail .*$", (ROOT / "workflow/README.md").read_text(), flags=re.M)
+    (split,) = re.findall(
+        r"^tail .*$", (ROOT / "workflow/examples/cluster/README.md").read_text(), flags=re.M
+    )
     split = split.replace("1000000", "10")
     subprocess.run(["bash", "-c", split], cwd=example.folder, check=True)
     for name in [*NAMES, *NO_TABLES]:

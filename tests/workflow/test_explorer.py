@@ -15,9 +15,9 @@ import yaml
 from matplotlib.image import imread
 
 from planarimpact import bodies, collision, continuum, lumped
-from stronge1994 import plan
+from stronge1994 import settings as figure_settings
 from stronge1994.explorer import page as write_explorer
-from stronge1994.plan import figures
+from stronge1994.settings import figures
 from tests.workflow import node
 from tests.workflow.project import config
 
@@ -306,7 +306,7 @@ def test_the_stage_alone_is_a_frame_of_a_lecture(show):
 
 
 def test_presets_stand_where_the_figures_say():
-    settings = plan.settings_of_explorer(config())
+    settings = figure_settings.of_explorer(config())
     presets, printed = write_explorer.presets(settings), settings["figures"]
     assert sorted(presets) == sorted(figures.with_trait("explorer"))
     for figure in ("fig3", "fig4"):

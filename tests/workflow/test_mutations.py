@@ -15,14 +15,15 @@ import pytest
 import yaml
 
 from planarimpact import continuum, lumped
-from stronge1994 import curve_names, plan
+from stronge1994 import curve_names
+from stronge1994 import settings as figure_settings
 from stronge1994.figures.shared.curves import beside, solving
 from stronge1994.judging import compare
 from stronge1994.judging import rows as judging_rows
 from stronge1994.ledger import checking
-from stronge1994.plan import config as configuration
+from stronge1994.settings import config as configuration
 from stronge1994.verdict_tables.verdict_table import FAILS
-from tests.workflow.project import ROOT, config, ledger
+from tests.workflow.project import ROOT, awaited, config, ledger
 
 TABLE = yaml.safe_load((ROOT / "tests/mutations.yaml").read_text(encoding="utf-8"))
 FAULTS = TABLE["faults"]
@@ -61,15 +62,11 @@ for fault, figure, names in OF_FIGURES.values():
         SOLVED[figure] = SOLVED.get(figure, set()) | names
 
 
-def test_every_row_of_a_run_notices_a_fault(inventory):
+def test_every_row_of_a_run_notices_a_fault():
     """What is awaited has no points yet; test_awaited_series.py makes some up."""
-    plans = [
-        plan.plan_of_judgement(CONFIG, inventory, name) for name in configuration.judged(CONFIG)
-    ]
-    awaited = {name for own in plans for name, waits in own["rows"].items() if waits}
     for kind, names in JUDGED.items():
         noticed = {name for fault in FAULTS.values() for name in noticed_by(fault, kind)}
-        assert set(names) - noticed <= awaited, kind
+        assert set(names) - noticed <= set(awaited()), kind
 
 
 def changed(expression, value, given):
@@ -166,9 +163,9 @@ def judged(inventory, monkeypatch):
     def failing(figure, names, curves):
         monkeypatch.setattr(judging_rows, "read", lambda _: curves)
         entries = {name: CONFIG["comparisons"][name] for name in names}
-        references = plan.references(CONFIG, inventory, figure)
+        references = figure_settings.references(CONFIG, inventory, figure)
         with np.errstate(over="ignore"):  # distances of the largest numbers of `stability`
-            rows = compare(figure, entries, references, "", CONFIG["significance"])
+            rows = compare(figure, "", entries, references, CONFIG["significance"])
         return {row["comparison"] for row in rows if row["verdict"] in FAILS and row["points"]}
 
     return failing
@@ -176,8 +173,8 @@ def judged(inventory, monkeypatch):
 
 def settings_of(figure, inventory):
     """Settings of a figure with its points of reference, and with few samples."""
-    settings = plan.settings(CONFIG, inventory, figure)
-    settings |= solving.read_nodes(plan.nodes_of(CONFIG, inventory, figure))
+    settings = figure_settings.physics(CONFIG, inventory, figure)
+    settings |= solving.read_nodes(figure_settings.nodes_of(CONFIG, inventory, figure))
     if figure in TABLE["samples"]:
         settings["samples"] = TABLE["samples"][figure]
     if figure == "stability":
@@ -272,7 +269,7 @@ def held(name, curves):
 @pytest.mark.parametrize("name", configuration.judged(CONFIG))
 @pytest.mark.parametrize("factor", [1.3, pytest.param(-1.0, marks=pytest.mark.long)])
 def test_no_column_can_be_scaled_or_flipped(name, factor, table_of, judged):
-    right, titles, missed = table_of(name), list(plan.comparisons(CONFIG, name)), []
+    right, titles, missed = table_of(name), list(figure_settings.comparisons(CONFIG, name)), []
     for curve, column in held(name, right):
         wrong = right | {curve: right[curve] | {column: factor * right[curve][column]}}
         noticed = next((title for title in titles if judged(name, [title], wrong)), None)

@@ -1,7 +1,6 @@
 """Pictures follow the tables of a run, and what is written in them can be read."""
 
 import importlib
-import json
 import re
 from pathlib import Path
 
@@ -15,12 +14,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
 
+import planarimpact
 from stronge1994 import csv_tables
+from stronge1994 import settings as figure_settings
 from stronge1994.curve_names import is_shifted
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import house_style
-from stronge1994.plan import figures
-from stronge1994.run import plans
+from stronge1994.settings import figures
+from tests.workflow.project import config, sources
 
 # Curves that are only compared, as patterns; and those that are areas, bars and marks.
 NOT_DRAWN = {
@@ -42,7 +43,7 @@ def given(first_run):
 
     def of(figure):
         project, _ = first_run
-        settings = json.loads((project / plans.path(f"draw_{figure}")).read_text())["settings"]
+        settings = figure_settings.of_figure(config(), sources(), figure)["drawing"]
         points = drawings.series(settings["overlays"])
         module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
         curves = csv_tables.read(project / f"results/curves/{figure}.csv")
@@ -87,6 +88,13 @@ def test_a_line_is_a_curve_of_the_table_and_each_curve_is_drawn(given, figure):
     assert [
         n for n in names if n not in seen and not re.search(NO_LINES.get(figure, "^$"), n)
     ] == []
+
+
+def test_a_picture_says_what_has_made_it_and_not_when(first_run):
+    for kind in ("svg", "png"):
+        content = (first_run[0] / f"figures/fig3.{kind}").read_bytes()
+        assert f"planarimpact {planarimpact.__version__}, commit ".encode() in content
+        assert b"<dc:date>" not in content and b"Creation Time" not in content
 
 
 def test_a_series_that_is_compared_is_drawn_by_its_drawing_or_beside_it(given):

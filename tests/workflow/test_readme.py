@@ -9,7 +9,7 @@ import pytest
 from planarimpact.__main__ import main
 from stronge1994 import csv_tables, reference_data
 from stronge1994.curve_names import is_of_paper
-from stronge1994.plan import figures
+from stronge1994.settings import figures
 from stronge1994.verdict_tables import figure_table
 
 ROOT = Path(__file__).parents[2]
@@ -18,7 +18,10 @@ PATHS += [ROOT / "data/scenes/README.md", ROOT / "src/planarimpact/README.md"]
 TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
 MAIN = TEXTS["README.md"]
 # Pages whose examples have a test of their own, or none.
-PAGES = ["CONTRIBUTING.md", "workflow/your_model_your_data.md"]
+PAGES = ["CONTRIBUTING.md", "workflow/examples/cluster/README.md", "workflow/notebooks/README.md"]
+PAGES += [
+    f"workflow/{name}.md" for name in ("add_a_figure", "models_and_codes", "your_model_your_data")
+]
 EXAMPLES = [
     pytest.param(block, id=f"{name}-{number}")
     for name, text in TEXTS.items()
@@ -83,6 +86,15 @@ def test_paths_and_links_lead_somewhere(name):
         if not target.exists() or (section and section not in sections(target)):
             missing.append(link)
     assert [path for path in missing if not NOT_THERE.search(path)] == []
+
+
+def test_the_picture_of_the_workflow_has_all_rules():
+    """But for targets that are left out of it, such as `figures`."""
+    paths = [ROOT / "Snakefile", *ROOT.glob("workflow/rules/*.smk")]
+    text = "".join(path.read_text(encoding="utf-8") for path in paths)
+    rules = set(re.findall(r"^(?:rule|use rule \w+ as) (\w+)", text, flags=re.M))
+    picture = (ROOT / "workflow/rulegraph.svg").read_text(encoding="utf-8")
+    assert set(re.findall(r">(\w+)</text>", picture)) == rules - {"figures", "notebooks"}
 
 
 def sections(path):

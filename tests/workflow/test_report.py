@@ -18,7 +18,6 @@ from stronge1994.formulas import mathematical, number
 from stronge1994.ledger import finding, outcome
 from stronge1994.pages import key_numbers, note, which_model
 from stronge1994.pages import report as write_report
-from stronge1994.plan import config as configuration
 from stronge1994.verdict_tables import verdict_table
 from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat
@@ -112,10 +111,9 @@ def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, ta
     assert re.findall(r'<tr id="([^"]*)"', shown) == mine
     told = pages("sources")
     told = told[told.index(f'<pre id="config-{name}"') :].split("</pre>")[0]
-    config = configuration.with_values(CONFIG)
-    comparisons = config["comparisons"].items()
+    comparisons = CONFIG["comparisons"].items()
     assert yaml.safe_load(html.unescape(told.partition(">")[2])) == {
-        "figures": {name: config["figures"][name]},
+        "figures": {name: CONFIG["figures"][name]},
         "comparisons": {key: entry for key, entry in comparisons if entry["figure"] == name},
     }
 
@@ -159,7 +157,7 @@ def test_numbers_of_the_note_are_those_that_the_words_behind_them_mean(numbers):
         name: 4.0 for name in numbers if name.endswith(("failed", "spreads", "published.agrees"))
     }
     names, marks = list(numbers), {name: 3000.0 + i for i, name in enumerate(numbers)}
-    page = note.page(marks | spelt, [], shown, str(ROOT / "workflow/report/note.html"))
+    page = note.page(marks | spelt, [], shown, ROOT / "workflow/report/note.html")
     marked = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda m: f"«{names[int(m[1])]}»", Page(page).text)
     row_of_table = "pairs.*.chi2» «pairs.*.least» to «pairs.*.most» 4 «pairs.*.without polyurethane"
     row_of_table += ".chi2» «rubber.*.distance» «rubber.*.distance.small» «yielding.*.rms»"
@@ -282,14 +280,14 @@ MODEL |= {"input_spread_stick [mu v2(0)]": "0.6", "restitution [1]": "0.8", "los
 
 
 def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
-    """Comparisons failed, a solver crashed, and an entry of the ledger holds no longer."""
+    """Comparisons failed, and an entry of the ledger holds no longer."""
     none = dict.fromkeys(outcome.COLUMNS, "") | {"verdict": "wrong"}
     answers = [MODEL | {"tolerance [mu v2(0)]": allowed} for allowed in ("0.3", "0.1")]
     values = {
         "verdicts": VERDICTS,
         "ledger": [none | {"entry": "eq-25", "holds": "no"}, none | {"entry": "a", "holds": "yes"}],
         "figures": {
-            name: write_report.figure(name, b"<svg/>", "Words.", [], VERDICTS, {"slides": []})
+            name: write_report.figure(name, b"<svg/>", "Words.", [], VERDICTS, False)
             for name in CONFIG["figures"]
         },
         "captions": dict.fromkeys(write_report.SECTIONS, "Words."),

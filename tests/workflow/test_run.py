@@ -1,23 +1,33 @@
-"""The workflow as a user meets it: what runs, what reruns, what a figure alone does."""
+"""The workflow as a user meets it: what a run leaves, what runs again, and what stops it.
+
+Most is asked of Snakemake's `--summary`, which runs nothing: it says which files a run would make.
+"""
 
 import os
 import re
-import subprocess
+import signal
 import sys
+import time
+
+import pytest
 
 from stronge1994 import csv_tables
-from stronge1994.plan import figures
+from stronge1994.settings import figures
 from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
-from tests.workflow.project import ROOT, config, copy_of
+from tests.workflow.project import LEFT, PARTS, TIMEOUT, config, copy_of
+from tests.workflow.test_refusals import explained
 
 FIGURES = list(config()["figures"])
 SLIDES = figures.with_trait("slide")
+FOLDER = "src/stronge1994/figures"
+# Columns of words, which have no unit.
+WORDS = {"curve", "event", "regime", "model", "loss", "pair", "body", "other", "set", "contact"}
+WORDS |= {"run", "impact", "ball"}
 
 
 def test_a_good_run_passes_and_leaves_everything(first_run):
     project, result = first_run
     assert result.returncode == 0 and "PASSED." in result.stdout, result.stdout
-    assert (project / "results/PASSED").exists()
     for figure in FIGURES:
         for path in (f"figures/{figure}.svg", f"figures/{figure}.png"):
             assert (project / path).stat().st_size > 100
@@ -25,16 +35,9 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
         assert all("[" in name for name in header.split(",") if name not in WORDS), header
     slides = {f"{figure}_{ground}.png" for figure in SLIDES for ground in ("light", "dark")}
     assert slides == {path.name for path in (project / "figures/slides").iterdir()}
-    for table in ("trade", "which_model"):
-        assert (project / f"results/{table}.csv").stat().st_size > 100
     for scene, count in (("shot_peening", 200), ("billiard_cushion", 21), ("superball", 3)):
         assert len(csv_tables.read_rows(project / f"results/scenes/{scene}.csv")) == count
         assert f"{count} impacts" in (project / f"results/logs/scene_{scene}.log").read_text()
-
-
-# Columns of words, which have no unit.
-WORDS = {"curve", "event", "regime", "model", "loss", "pair", "body", "other", "set", "contact"}
-WORDS |= {"run", "impact", "ball"}
 
 
 def test_the_verdicts_of_a_good_run(first_run, inventory):
@@ -51,86 +54,138 @@ def test_the_verdicts_of_a_good_run(first_run, inventory):
         assert (row["verdict"] == "right") <= (row["question"] == "solved right"), row
 
 
-def test_the_terminal_shows_a_job_a_line_and_all_figures_on_one_screen(first_run):
+def test_a_file_of_its_output_is_short_and_has_all_figures_on_one_screen(first_run):
     said = first_run[1].stdout
-    assert len(said.encode()) <= 12_000
+    assert len(said.encode()) <= 6_000
     table = said[said.index("figure solved right") :].split("\n\n")[0].splitlines()
     assert len(table) <= 30 and max(map(len, table)) <= 80
     names = [line.split()[0] for line in table if not line.startswith(" ")][1:]
     paper = [f"fig{number}" for number in range(2, 10)]
     assert names == [*paper, *sorted({*FIGURES} - {*paper}), "scenes"]
-    drawn = re.findall(r"^ *\d+ of \d+  (draw_\w+)  \d+\.\d s$", said, flags=re.M)
-    assert drawn[:1] == ["draw_fig3"] or len(drawn) < len(FIGURES)  # not all were drawn anew
 
 
-EDITED = {
-    "src/stronge1994/figures/fig6/curves.py": ("", "# edited\n"),
-    "src/stronge1994/figures/rod/drawing.py": ("", "# edited\n"),
-    "src/stronge1994/run/last_words.py": ("", "# edited\n"),
-    "data/kharaz2001/spin.csv": ("kratos,69.96", "kratos,69.97"),
-    "data/stronge1994/source.yaml": ("", "# edited\n"),
-    "workflow/report/ledger.html": ("", "<!-- edited -->\n"),
-    # A tolerance compares again, that of a scene solves it; so does a setting of a figure, below.
-    "src/stronge1994/figures/fig5/figure.yaml": ("rms: [717.0,", "rms: [716.0,"),
-    "workflow/config.yaml": ("superball: {tolerance: 1.0e-4", "superball: {tolerance: 0.1"),
-}
-# Plans that these settings change.
-PLANS = ["judge_fig5", "scene_superball", "curves_fig2", "draw_fig2", "report", "note", "all"]
+@pytest.fixture(scope="module")
+def tree(first_run, tmp_path_factory):
+    """A copy of the project after a full run, in which files are changed and changed back."""
+    return copy_of(first_run[0].folder, tmp_path_factory.mktemp("tree"), PARTS + LEFT)
 
 
-def test_a_change_reruns_what_it_concerns_and_nothing_more(finished):
-    """The records say what reads a file. Data of an older date count too, and a touch does not."""
-    made = finished.records()
-    for folder in ("src", "data"):
-        for path in (finished / folder).rglob("*.*"):
-            path.touch()
-    for path, (old, new) in EDITED.items():
-        text = (finished / path).read_text()
-        assert old in text, path
-        (finished / path).write_text(text.replace(old, new) if old else text + new)
-        if not path.startswith("workflow"):  # the gate would name it, see test_proof.py
-            os.utime(finished / path, (0, 0))
-    edited = set(EDITED) | {f"results/plans/{job}.json" for job in PLANS}
-    jobs, before = set(), None
-    while jobs != before:
-        before = set(jobs)
-        jobs |= {job for job, kept in made.items() if edited & set(kept["read"])}
-        edited |= {path for job in jobs for path in made[job]["wrote"]}
-    counts = finished.planned("--config", "figures={fig2: {restitution: 0.4}}")
-    assert sum(counts.values()) == len(jobs) + 1, (counts, jobs)
-    for rule, names in (("curves", ["fig2", "fig6"]), ("scene", ["superball"])):
-        assert {f"{rule}_{name}" for name in names} <= jobs and counts[rule] == len(names)
-    assert {"draw_rod", "judge_fig5", "ledger"} <= jobs and counts["judge"] < len(FIGURES)
+OF_FIG2 = {"curves_fig2", "judge_fig2", "draw_fig2"}
 
 
-def test_figures_are_drawn_without_judgement(finished):
-    """With numbers and truths of the command line."""
+def changed(path, old="", new=""):
+    """Change a file, which gets the date of an old archive; what changes it back."""
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1) if old else f"{text}{new}\n", encoding="utf-8")
+    os.utime(path, (0, 0))
+    return lambda: path.write_text(text, encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("path", "words", "jobs"),
+    [
+        (f"{FOLDER}/fig6/drawing.py", ("", "# edited"), {"draw_fig6", "report"}),
+        (f"{FOLDER}/fig2/curves.py", ("", "# edited"), OF_FIG2 | {"report"}),
+        ("data/kharaz2001/spin.csv", ("69.96", "69.97"), {"draw_fig5", "judge_fig5", "report"}),
+        ("workflow/config.yaml", ("superball: {tolerance: 1.0e-4", "superball: {tolerance: 0.1"),
+         {"scene_superball", "judge_scene_superball", "report"}),
+    ],
+)  # fmt: skip
+def test_an_edit_runs_again_what_it_concerns_whatever_its_date(path, words, jobs, tree):
+    back = changed(tree / path, *words)
+    assert tree.jobs()[1] == jobs
+    back()
+
+
+def test_an_edit_of_the_solver_runs_again_all_that_solves_with_it(tree):
+    back = changed(tree / "src/planarimpact/lumped/normal.py", new="# edited")
+    every, again = tree.jobs()
+    assert every - again == {"versions", *OF_FIG2}
+    back()
+
+
+def test_another_version_of_a_package_runs_everything_again(tree, tmp_path):
+    (tmp_path / "numpy-9.9.9.dist-info").mkdir()
+    (tmp_path / "numpy-9.9.9.dist-info/METADATA").write_text("Name: numpy\nVersion: 9.9.9\n")
+    every, again = tree.jobs(PYTHONPATH=str(tmp_path))
+    assert every == again > {"versions", "explorer", "draw_fig9"}
+
+
+def test_the_paper_is_eight_figures_drawn_and_judged(tree):
+    figures = [f"{job}_fig{n}" for job in ("curves", "draw", "judge") for n in range(2, 10)]
+    assert tree.jobs("paper") == ({"versions", *figures}, set())
+
+
+def test_settings_of_the_command_line_are_drawn_without_judgement(tree):
     change = "figures={fig6: {as_printed: false}, superball: {throw: {bounces: 5}}}"
-    counts = finished.planned("figures", "--config", change)
-    draws = counts.pop("draw", 0) + counts.pop("draw_with_slide", 0)
-    assert draws == 2 and counts == {"curves": 2, "figures": 1}
+    assert tree.jobs("figures", "--config", change)[1] == {
+        f"{job}_{figure}" for job in ("curves", "draw") for figure in ("fig6", "superball")
+    }  # fmt: skip
 
 
-def test_a_figure_is_judged_alone_in_any_folder_with_any_home(tmp_path):
+def test_touching_everything_runs_nothing_and_what_is_missing_is_made_again(finished):
+    for path in finished.folder.rglob("*.*"):
+        path.touch()
+    assert finished.jobs()[1] == set()
+    result = finished.run("--dry-run")
+    assert result.returncode == 0 and re.search(r"all +1 *\n *\n total +1", result.stdout)
+    (finished / "results/curves/fig2.csv").unlink()
+    assert finished.jobs()[1] == OF_FIG2 | {"report"}
+
+
+def test_a_job_that_raises_is_named_at_the_end_and_the_others_are_done(finished):
+    raising = "raise ValueError('oh')"
+    broken = [finished / f"{FOLDER}/{path}" for path in ("fig3/curves.py", "fig4/drawing.py")]
+    mend = [changed(path, new=raising) for path in broken]
+    changed(finished / f"{FOLDER}/fig2/curves.py", new="# edited")
+    result = finished.run()
+    assert result.returncode == 1 and "PASSED" not in result.stdout
+    for job, log in (("curves fig3", "curves_fig3"), ("draw fig4", "draw_fig4")):
+        assert f"failed: {job} (log: results/logs/{log}.log)" in result.stdout
+        assert "ValueError: oh" in (finished / f"results/logs/{log}.log").read_text()
+    assert "\nfig2 " in result.stdout and "\nfig3 " not in result.stdout
+    for back in mend:
+        back()
+    missing = {"curves_fig3", "draw_fig3", "judge_fig3", "draw_fig4", "report"}
+    assert finished.jobs()[1] == missing
+
+
+def test_a_row_that_fails_fails_the_run_in_any_folder_with_any_home(first_run, tmp_path):
     """The name of the folder needs quotes in a shell; HOME is a file, and cannot be written."""
-    project = copy_of(ROOT, tmp_path / "OneDrive - user's folder (1)")
+    folder = tmp_path / "OneDrive - user's folder [1] (2)"
+    project = copy_of(first_run[0].folder, folder, PARTS + LEFT)
     (project / ".venv").symlink_to(sys.prefix)
     (tmp_path / "home").touch()
-    change = ["stiffness_ratio=1.5", "figures={fig3: {restitution: [1, 0.9]}}"]
-    result = subprocess.run(
-        [project / ".venv/bin/python", "-m", "snakemake", "--cores", "2", "fig3"]
-        + ["--config", *change],
-        cwd=project.folder,
-        env=os.environ | {"HOME": str(tmp_path / "home")},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    said = result.stdout
-    assert result.returncode != 0 and "PASSED." not in said, said
-    assert not (project / "results/PASSED").exists()
-    assert (project / "figures/fig3.svg").stat().st_size > 100
-    # It fails where a row does, also where a curve is missing.
+    change = "figures={fig3: {restitution: [1, 0.9]}}"
+    python, home = project / ".venv/bin/python", str(tmp_path / "home")
+    result = project.run("--config", change, python=python, HOME=home)
+    said = " ".join(result.stdout.split())
+    assert result.returncode == 1 and "PASSED" not in said, said
+    assert "FAILED. Reasons: 2 wrong: fig3-events: " in said, said
     assert "no curve 'e = 0.5'; the figure has e = 1, e = 0.9" in said
-    assert "fig3: FAILED. Reasons: 2\n  wrong: fig3-events: " in said
-    assert re.search("^fig3-events .* wrong$", said, flags=re.M) and "fig6" not in said
+    assert "<title>Failed" in (project / "figures/report.html").read_text()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_a_run_that_was_stopped_goes_on(number, finished):
+    """One job works while the other has been done."""
+    slow = "import pathlib, time\npathlib.Path('reached').touch()\ntime.sleep(600)"
+    back = changed(finished / f"{FOLDER}/fig3/curves.py", new=slow)
+    changed(finished / f"{FOLDER}/fig4/drawing.py", new="# edited")
+    (finished / "results/logs/fig4.log").unlink(missing_ok=True)
+    running, deadline = finished.start("fig3", "fig4"), time.monotonic() + TIMEOUT
+    for path in ("reached", "results/logs/fig4.log"):  # the gate of Fig. 4
+        while not (finished / path).exists():
+            assert running.poll() is None and time.monotonic() < deadline
+            time.sleep(0.05)
+    os.killpg(running.pid, number)
+    said, _ = running.communicate(timeout=TIMEOUT)
+    back()
+    if number == signal.SIGKILL:
+        assert "--unlock" in explained(finished.run("fig3"))
+        assert finished.run("--unlock").returncode == 0
+    else:
+        assert running.returncode == 1 and "what was finished is kept" in " ".join(said.split())
+        assert "Traceback" not in said
+    assert finished.jobs("fig3", "fig4")[1] == {"curves_fig3", "draw_fig3", "judge_fig3"}

@@ -9,11 +9,12 @@ import warnings
 import pytest
 
 from planarimpact.ground.checks import ConvergenceError
-from stronge1994 import judging, plan, reference_data
+from stronge1994 import judging, reference_data
+from stronge1994 import settings as figure_settings
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.curves import solving
-from stronge1994.plan import config as configuration
-from stronge1994.plan import figures
+from stronge1994.settings import config as configuration
+from stronge1994.settings import figures
 from tests.workflow.project import ROOT, ledger
 
 # What only makes a picture finer, and its table more exact, while another setting is tried.
@@ -59,21 +60,19 @@ def test_a_setting_that_is_allowed_is_drawn_and_judged(
     quick = {"figures": {name: _quick(figures.values(figures.stated()[name]["settings"]))}}
     config = configuration.overridden(configuration.complete(whole | quick), change)
     configuration.check_config(config, inventory, ledger())
-    planned = plan.plan_of_figure(config, inventory, name)
-    judged = plan.plan_of_judgement(config, inventory, name)["settings"]
+    own = figure_settings.of_figure(config, inventory, name)
+    judged = figure_settings.of_judgement(config, inventory, name)["settings"]
     curves = str(tmp_path / "curves.csv")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            solving.solve(name, planned["settings"], planned["nodes"], curves)
+            solving.solve(name, **own["curves"], output=curves)
     except Exception as error:
         assert isinstance(error, ConvergenceError) or "allowed are" in f"{error}", repr(error)
         return
     pictures = {key: str(tmp_path / f"{key}.png") for key in ("png", "light", "dark")}
     pictures["svg"] = str(tmp_path / "a.svg")
-    planned["slide"] = figures.stated()[name].get("slide")
-    drawings.draw(name, planned, curves, pictures)
-    parts = judged["comparisons"], judged["references"]
-    rows = judging.compare(name, *parts, curves, judged["significance"])
-    assert [row["comparison"] for row in rows] == [f"{name}-solved", *judged["comparisons"]]
+    drawings.draw(name, own["drawing"], curves, pictures)
+    rows = judging.compare(name, curves, **judged)
+    assert [row["comparison"] for row in rows] == list(judged["comparisons"])
     assert all(row["reason"] for row in rows)

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from stronge1994 import judging, reference_data
-from stronge1994.plan.figures import expanded
+from stronge1994.settings.figures import expanded
 from tests.workflow.project import ROOT
 
 TEXT = (ROOT / "workflow/your_model_your_data.md").read_text(encoding="utf-8")
@@ -74,5 +74,5 @@ def test_a_stranger_adds_a_model_and_a_series_and_sees_them_judged(typed):
     source = reference_data.load(project / "data/marble", schema)
     references = {"marble/rebound": source["series"]["rebound"]}
     table = project / "results/curves/marble.csv"
-    rows = judging.compare("marble", dict(expanded(name, entry)), references, table, 0.01)
-    assert [row["verdict"] for row in rows[1:]] == ["agrees", "explained difference"]
+    rows = judging.compare("marble", table, dict(expanded(name, entry)), references, 0.01)
+    assert [row["verdict"] for row in rows] == ["agrees", "explained difference"]

@@ -1,54 +1,64 @@
-# Check config and data before any work, and plan every job.
-from stronge1994.curve_names import SCENE, is_of_paper
-from stronge1994.ledger import entries
+# What the rules share: settings, checked before any work, values of wildcards, and functions for inputs.
+import json
+import logging
+import os
+import shlex
+import sys
+import time
+from pathlib import Path
 
+from snakemake.exceptions import WorkflowError
+
+# Every job takes the packages from this folder, wherever else they may be installed.
+sys.path.insert(0, f"{workflow.basedir}/src")
+os.environ.update(PYTHONPATH=sys.path[0])
+# Snakemake puts this path into the command of a script without quotes (its issue 2645): the blanks of a
+# folder `OneDrive - NTNU` would break it.
+sys.executable = shlex.quote(sys.executable)
+# Where a job could not begin its log, on a full disk, the logger of the profile would show its own traceback.
+logging.raiseExceptions = False
+# Ctrl-C ends a job once it has its log, see `stronge1994.logs`; before that it would fill the terminal.
+shell.prefix("set -euo pipefail; trap '' INT; ")
+import planarimpact
+from stronge1994 import gate, imports, reference_data, settings, versions
+from stronge1994.curve_names import is_of_paper
+from stronge1994.ledger import entries
+from stronge1994.settings import config as configuration
+from stronge1994.settings import figures
+
+if set("{}") & set(workflow.basedir):
+    raise WorkflowError(f"{workflow.basedir}: Snakemake takes braces for a wildcard: rename the folder")
+# Snakemake would end the first job that reads such a file, and remove what the job has made.
+FOLDERS = ["data", "figures", "results", "src", "workflow"]
+LATER = [
+    path
+    for folder in FOLDERS
+    for path in Path(folder).rglob("*.*")
+    if path.is_file() and path.stat().st_mtime > time.time()
+]
+if LATER:
+    mend = f"find {' '.join(FOLDERS)} -newermt now -exec touch {{}} +" if LATER[1:] else f"touch {LATER[0]}"
+    others = f", so do those of {len(LATER) - 1} others" if LATER[1:] else ""
+    raise WorkflowError(f"{LATER[0]}: its date lies in the future{others}. Give today's date: {mend}")
 LEDGER = "data/stronge1994/ledger.yaml"
-FACTS = "data/stronge1994/source.yaml"  # to which the ledger refers
-NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 try:
-    config = configuration.complete(configuration.with_values(config))
-    LEDGER_SCHEMA = reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")
+    # In place of `configfile:`: workflow/config.yaml over each figure.yaml, --configfile and --config over
+    # both. They are read as strict YAML; what Snakemake makes of --config is not used.
+    config = configuration.load(
+        [configuration.FILE, *workflow.config_settings.configfiles],
+        workflow.config_settings.config_args or (),
+    )
     SOURCES = reference_data.load_all("data", reference_data.load_yaml("workflow/schemas/source.schema.yaml"))
-    ENTRIES = entries.load(LEDGER, LEDGER_SCHEMA)
-    SYMBOLS = reference_data.load_yaml(LEDGER)["symbols"]
+    ENTRIES = list(entries.load(LEDGER, reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")))
     configuration.check_config(config, SOURCES, ENTRIES)
-    FIGURES = {
-        figure: plan.plan_of_figure(config, SOURCES, figure) for figure in config["figures"]
-    }
-    JUDGED = {
-        name: plan.plan_of_judgement(config, SOURCES, name)
-        for name in configuration.judged(config)
-    }
-    # Rows that the tables of the run must have.
-    EXPECTED = {
-        "comparisons": {title: waits for own in JUDGED.values() for title, waits in own["rows"].items()},
-        "entries": {name: entries.is_run(entry) for name, entry in ENTRIES.items()},
-    }
-except (reference_data.SourceError, ConfigError) as error:
+    FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
+    JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}
+except reference_data.SourceError as error:
     raise WorkflowError(str(error))
 
-TIMED = figures.with_trait("timed")
-UNTIMED = [figure for figure in FIGURES if figure not in TIMED]
-SLIDES = figures.with_trait("slide")
-CAPTIONS = {figure: stated["caption"] for figure, stated in figures.stated().items()}
-
-
-def priority(wildcards):
-    """The paper's figures go before all others, Fig. 3 first, then the one that takes longest.
-
-    A lecture waits for `trade`, so it is next.
-    """
-    name = wildcards.get("figure") or wildcards.get("judged")
-    return {"fig3": 4, "fig5": 3, "trade": 1}.get(name, 2 * is_of_paper(name))
-
-
-# Every value that a wildcard has in a run.
-VALUES = {
-    "figure": list(FIGURES),
-    "judged": list(JUDGED),
-    "scene": list(config["scenes"]),
-    "notebook": NOTEBOOKS,
-}
+PAPER = [figure for figure in FIGURES if is_of_paper(figure)]
+TIMED, SLIDES = figures.with_trait("timed"), figures.with_trait("slide")  # as figure.yaml says
+NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 
 
 wildcard_constraints:
@@ -58,54 +68,81 @@ wildcard_constraints:
     notebook="|".join(NOTEBOOKS) or "none",
 
 
-PLANNED = []  # names of jobs
+def digest(*paths):
+    """A param: one hash of all code of a job, so that Snakemake runs it again if a module has changed.
 
-
-def planned(job, script, *rooms, settings=lambda value: {}, reads=lambda value: []):
-    """Write the plan of each job of a rule, and give their path, which has the wildcard of the rule.
-
-    `rooms` of the reproduction are what the job imports; `{figure}` in one is the value of the
-    wildcard, if that is a figure. `settings` and `reads`, files of this repository, depend on the
-    value.
+    `paths` are files or folders, with wildcards in braces, or functions of the wildcards. What they
+    import from src counts too, directly or not: see `stronge1994.imports`. A file of data/ is an input, by
+    its date, and stands here, too: a copy that replaces it may have an older date.
     """
-    _, _, wildcard = job.rstrip("}").partition("{")
-    for value in VALUES[wildcard] if wildcard else [""]:
-        own = [room.format(figure=value) for room in rooms if value in FIGURES or "{" not in room]
-        sources = files.sources(script, *own)
-        name = job.format(**{wildcard: value}) if wildcard else job
-        try:
-            if workflow.is_main_process:
-                plans.write(name, [*sources, *reads(value)], settings(value))
-        except FileNotFoundError as error:
-            raise WorkflowError(f"{error.filename}: missing, and the job {name} reads it")
-        PLANNED.append(name)
-    return plans.path(job)
+
+    def of_job(wildcards):
+        given = [path(wildcards) if callable(path) else [path.format(**wildcards)] for path in paths]
+        return imports.digest(sum(given, []))
+
+    return of_job
 
 
-def of_figure(part, plans=FIGURES, wildcard="figure"):
-    """Input function: one entry of `plan.plan_of_figure`, or of another plan."""
-    return lambda wildcards: plans[getattr(wildcards, wildcard)][part]
+def of_figure(part):
+    """A part of `settings.of_figure`: settings of curves and drawing, `tables` to solve, `series` to draw."""
+    return lambda wildcards: FIGURES[wildcards.figure][part]
 
 
-def of_drawing(figure):
-    """Settings of the plan of a drawing."""
-    own = {key: FIGURES[figure][key] for key in ("settings", "overlays")}
-    return own | {"slide": figures.stated()[figure].get("slide")}
+def of_judged(part):
+    """A part of `settings.of_judgement`: settings, `table` of curves or of a scene, `series` to compare."""
+    return lambda wildcards: JUDGED[wildcards.judged][part]
 
 
-def slides_of(figures):
-    """Pictures of the slides that some figures have."""
-    own = [figure for figure in SLIDES if figure in figures]
-    return expand("figures/slides/{figure}_{ground}.png", figure=own, ground=["light", "dark"])
+def made(names):
+    """Tables and pictures of figures and scenes, and all on the way to them.
+
+    A failed job removes its files. Snakemake makes a missing one again only if it is asked for: else it
+    is content with what an earlier run has made of it.
+    """
+    drawn = [name for name in names if name in FIGURES]
+    slides = [name for name in SLIDES if name in names]
+    return [
+        *rules.versions.output,
+        *(JUDGED[name]["table"] for name in names),
+        *expand("figures/{figure}.{kind}", figure=drawn, kind=["svg", "png"]),
+        *expand("figures/slides/{figure}_{ground}.png", figure=slides, ground=["light", "dark"]),
+    ]
 
 
-def files_of_one(name):
-    """Files of the jobs that make, draw and judge one figure or scene."""
-    makers = [rules.judge, *([rules.curves, rules.draw] if name in FIGURES else [rules.scene])]
-    made = [path for maker in makers for path in maker.output]
-    chosen = dict.fromkeys(["figure", "judged"], name) | {"scene": name.removeprefix(SCENE)}
-    return expand(made, **chosen) + slides_of([name])
+def rows_of(names):
+    """Names of the comparisons of some figures or scenes."""
+    return [title for name in names for title in JUDGED[name]["settings"]["comparisons"]]
 
 
-# Files that every page includes, beside its own template.
-EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html"]
+def priority(wildcards):
+    """The figures of the paper come first, in its order."""
+    name = wildcards.get("figure") or wildcards.judged
+    return 20 - PAPER.index(name) if name in PAPER else 0
+
+
+def last_words(stopped):
+    """What the run says at its end, by the tables that are up to date then.
+
+    Snakemake's graph of jobs tells which. It is no public interface: so Snakemake is pinned.
+    """
+    jobs, dag = list(workflow.dag.jobs), workflow.dag
+    failed = [job for job in workflow.scheduler.failed if job.output]  # but for the gates
+    done = {path for job in set(jobs) - set(dag.needrun_jobs()) for path in job.output}
+    targets = {"all": JUDGED, "paper": PAPER} | {name: [name] for name in JUDGED}
+    asked = {job.rule.name for job in jobs} & targets.keys()
+    judged = [name for name in JUDGED if any(name in targets[target] for target in asked)]
+    tables = {name: f"results/verdicts/{name}.csv" for name in judged}
+    tables = {name: table for name, table in tables.items() if table in done}
+    return gate.last_words(
+        list(tables.values()),
+        rows_of(tables),
+        ENTRIES if "all" in asked and gate.LEDGER in done else [],
+        {f"{job.name} {' '.join(job.wildcards)}".strip(): f"{job.log}" for job in failed},
+        {
+            job.rule.name
+            for job in jobs
+            if job.rule.name in asked and dag.finished(job) and not workflow.touch
+        },
+        stopped,
+        workflow.config_settings.config_args or [],
+    )

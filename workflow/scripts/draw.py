@@ -1,10 +1,12 @@
 """Draw one figure from its curves, and its slide if it has one."""
 
-from stronge1994.run import record
+from stronge1994 import logs
 
-with record.recorded(snakemake) as plan:
-    from stronge1994.figures.shared import drawing as drawings
+logs.to(snakemake.log[0])
 
-    drawings.draw(
-        snakemake.wildcards.figure, plan, snakemake.input.curves, dict(snakemake.output.items())
-    )
+from stronge1994 import versions
+from stronge1994.figures.shared import drawing as drawings
+
+given, made = snakemake.input, dict(snakemake.output.items())
+source = versions.source(given.versions)
+drawings.draw(snakemake.wildcards.figure, snakemake.params.settings, given.curves, made, source)

@@ -1,12 +1,12 @@
 """Compare one table of a run with reference data."""
 
-from stronge1994.run import record
+from stronge1994 import logs
 
-with record.recorded(snakemake) as plan:
-    from stronge1994 import judging, one_thread  # noqa: F401  (one thread: before numpy)
+logs.to(snakemake.log[0])
 
-    name, table, made = snakemake.wildcards.judged, snakemake.input.table, snakemake.output
-    comparisons, references = plan["comparisons"], plan["references"]
-    significance = plan["significance"]
-    rows = judging.compare(name, comparisons, references, table, significance)
-    judging.write(rows, made.verdicts, made.residuals)
+from stronge1994 import judging, one_thread  # noqa: F401  (one thread: before numpy)
+
+rows = judging.compare(
+    snakemake.wildcards.judged, snakemake.input.table, **snakemake.params.settings
+)
+judging.write(rows, snakemake.output.verdicts, snakemake.output.residuals)

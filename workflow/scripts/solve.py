@@ -1,9 +1,10 @@
 """Solve the curves of one figure."""
 
-from stronge1994.run import record
+from stronge1994 import logs
 
-with record.recorded(snakemake) as settings:
-    from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
-    from stronge1994.figures.shared.curves import solving
+logs.to(snakemake.log[0])
 
-    solving.solve(snakemake.wildcards.figure, **settings, output=snakemake.output.table)
+from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
+from stronge1994.figures.shared.curves import solving
+
+solving.solve(snakemake.wildcards.figure, **snakemake.params.settings, output=snakemake.output[0])

@@ -1,9 +1,10 @@
 """Solve one scene. Which model took how many impacts, and why, goes to the log."""
 
-from stronge1994.run import record
+from stronge1994 import logs
 
-with record.recorded(snakemake) as tolerance:
-    from planarimpact.scene import files
+logs.to(snakemake.log[0])
 
-    solver = files.solve(snakemake.input.table, snakemake.output.table, tolerance)
-    print(solver.explain())
+from planarimpact.scene import files
+
+solver = files.solve(snakemake.input.table, snakemake.output[0], snakemake.params.tolerance)
+print(solver.explain())

@@ -1,25 +1,9 @@
-"""Write the run as one page. What could not be shown is an error of the job, behind all else."""
+"""Write the run as pages: the report, its sources and settings, the note, the ledger."""
 
-from pathlib import Path
+from stronge1994 import logs
 
-from stronge1994.run import record
+logs.to(snakemake.log[0])
 
-with record.recorded(snakemake) as settings:
-    from stronge1994 import csv_tables
-    from stronge1994.pages import report
+from stronge1994.pages import report
 
-    files = snakemake.input
-    tables = (files.verdicts, files.ledger, files.numbers, files.answers)
-    report.copy_tables(snakemake.output.tables, files.linked)
-    report.write(
-        snakemake.output.page,
-        snakemake.output.problems,
-        {Path(path).stem: path for path in tables},
-        {Path(path).stem: path for path in files.residuals},
-        {Path(path).stem: path for path in files.pictures},
-        files.records,
-        files.template,
-        settings,
-    )
-    if problems := [row["problem"] for row in csv_tables.read_rows(snakemake.output.problems)]:
-        raise RuntimeError("; ".join(problems))
+report.write(snakemake.input, snakemake.output, **snakemake.params.settings)

@@ -1,11 +1,13 @@
 """Put all pages of a run and those of the interface into one folder, and pack it."""
 
-from stronge1994.run import record
+from stronge1994 import logs
 
-with record.recorded(snakemake):
-    from stronge1994.pages import interface, site
+logs.to(snakemake.log[0])
 
-    given, folder = snakemake.input, snakemake.output.folder
-    site.write(folder, given.pages, given.notebooks, given.texts)
-    interface.write(f"{folder}/interface")
-    site.pack(folder, snakemake.output.archive)
+from stronge1994.pages import interface, site
+
+given, folder = snakemake.input, snakemake.output.folder
+pages = [path for path in given.made if path.startswith("figures/")]
+site.write(folder, pages, given.notebooks, given.texts)
+interface.write(f"{folder}/interface")
+site.pack(folder, snakemake.output.archive)

@@ -1,8 +1,9 @@
 """Write error against time as two tables: every way sorted, and the cheapest to each tolerance."""
 
-from stronge1994.run import record
+from stronge1994 import logs
 
-with record.recorded(snakemake):
-    from stronge1994.figures.trade import answers
+logs.to(snakemake.log[0])
 
-    answers.write(snakemake.input.curves, snakemake.output.table, snakemake.output.answers)
+from stronge1994.figures.trade import answers
+
+answers.write(snakemake.input[0], snakemake.output.table, snakemake.output.answers)

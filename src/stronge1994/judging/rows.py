@@ -1,6 +1,7 @@
 """Rows of the verdict table, one for each comparison, and of the table of residuals.
 
-Comparing never fails: what cannot be compared diverges, with the reason in `note`.
+A table of curves that cannot be read is an error. What cannot be compared in it diverges, with the
+reason in `note`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,7 +22,6 @@ from stronge1994.verdict_tables.verdict_table import (
     FAILED,
     FAILS,
     LEDGER,
-    QUESTIONS,
     Verdict,
 )
 
@@ -32,36 +32,27 @@ VerdictRow: TypeAlias = dict[str, Any]
 
 def compare(
     name: str,
+    path: str,
     comparisons: Mapping[str, Entry],
     references: Mapping[str, Reference],
-    path: str,
     significance: float,
 ) -> list[VerdictRow]:
-    """Rows of the verdict table, the first on the table itself.
+    """Rows of the verdict table, one for each comparison of the table of curves at `path`.
 
     `name` is that of a figure, or `scene_` and that of a scene. `references` has the series and
     facts of source.yaml under `source/entry`, each with the parameters of its source. Published
     points agree if p is above `significance`. Beside the cells of the table each row has
     `residuals`, its rows of the table of residuals.
     """
-    problem, curves = "", {}
-    try:
-        curves = read(path)
-    except Exception as error:
-        problem = f"no curves: {error}"
-    solved = Verdict.WRONG if problem else Verdict.UNCHANGED
-    cells: VerdictRow = {"question": QUESTIONS[0], "reason": "it must run"}
-    rows = [_row(name, f"{name}-solved", solved, note=problem, **cells)]
+    curves, rows = read(path), []
     for title, entry in comparisons.items():
         reference = references.get(entry.get("reference", ""), {})
-        cells = {key: entry.get(key, "") for key in ("reference", "curve", "reason")}
+        cells: VerdictRow = {key: entry.get(key, "") for key in ("reference", "curve", "reason")}
         cells["question"] = question(entry, reference)
         if kind(reference) == "awaited":
             rows.append(_row(name, title, Verdict.AWAITED, note=reference["figure"], **cells))
             continue
         try:
-            if problem:
-                raise ValueError(problem)
             measured = measure(entry, reference, curves)
             verdict = judge(entry, reference, measured, significance)
             cells |= _numbers(entry, reference, measured, significance)
@@ -79,7 +70,7 @@ def read(path: str) -> Curves:
     """Curves that are judged. A number that is not finite is an error.
 
     The table of a figure has its own curves. That of a scene becomes one curve `impacts`, whose
-    rows are numbered. `csv_tables.Failed` says that the solver left an error instead.
+    rows are numbered.
     """
     if Path(path).parent.name == "scenes":
         rows = csv_tables.read_rows(path)

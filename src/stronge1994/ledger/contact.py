@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from scipy.integrate import cumulative_simpson
 
 from planarimpact import lumped, models
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
@@ -62,6 +61,18 @@ class State(NamedTuple):
 
 # Of a contact without such an event.
 NEVER = State(*5 * [np.array(np.nan)])
+
+
+def cumulative(values: Array, time: Array) -> Array:
+    """Integral of values over time up to each place, by Simpson's rule.
+
+    >>> cumulative(np.array([0.0, 1.0, 4.0]), np.array([0.0, 1.0, 2.0])).tolist()[::2]
+    [0.0, 2.6666666666666665]
+    """
+    # Each start of Snakemake imports this room, and SciPy would take longer than all else in it.
+    from scipy.integrate import cumulative_simpson
+
+    return cumulative_simpson(values, x=time, initial=0)
 
 
 class Contact:
@@ -178,7 +189,7 @@ class Contact:
         for start, end in zip(kinks, kinks[1:], strict=False):
             inside = (t >= start) & (t <= end)
             if inside.sum() > 1:
-                result[inside] = total + cumulative_simpson(values[inside], x=t[inside], initial=0)
+                result[inside] = total + cumulative(values[inside], t[inside])
                 total = result[inside][-1]
         return result
 

@@ -91,8 +91,3 @@ def needed(claim: Mapping[str, Any]) -> list[str]:
     """
     names = [claim["check"]] if "check" in claim else []
     return names + [check for check, _, _ in NUMBER.findall(claim["says"])]
-
-
-def is_run(entry: Entry) -> bool:
-    """Whether a run tests something of an entry: a verdict by the equations, or one in nature."""
-    return "check" in entry or "check" in entry.get("in_nature", {})

@@ -12,7 +12,6 @@ from itertools import product
 from types import ModuleType
 
 import numpy as np
-from scipy.integrate import cumulative_simpson
 
 from planarimpact import continuum, lumped
 from planarimpact.continuum import ContinuumHistory
@@ -67,7 +66,7 @@ def _histories(model: str, *incidences: float) -> list[History | ContinuumHistor
 
 def _impulse(history: History | ContinuumHistory) -> Array:
     """Normal impulse over that of compression."""
-    impulse = cumulative_simpson(history.normal, x=history.time, initial=0)
+    impulse = contact.cumulative(history.normal, history.time)
     return impulse / np.interp(1.0, history.time, impulse)
 
 
@@ -97,7 +96,7 @@ def indentation(model: str = PAPER) -> float:
     """Largest distance of $u_2(t_f)/u_2(t_c)$ from $1 - e^2$."""
     left = []
     for history in _histories(model, 1.0):
-        deflection = cumulative_simpson(1 - _impulse(history), x=history.time, initial=0)
+        deflection = contact.cumulative(1 - _impulse(history), history.time)
         left.append(deflection[-1] / np.interp(1.0, history.time, deflection))
     return float(np.abs(left - (1 - FEW**2)).max())
 

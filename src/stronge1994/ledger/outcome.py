@@ -48,8 +48,7 @@ def summary(rows: Sequence[Row]) -> str:
     bad, graded = failing(rows), sentence_of_grades(rows)
     counted = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
     said = f"{len(bad)} no longer hold" + (f"; of the wrong {graded}" if graded else "")
-    lines = [f"ledger of the paper: {counted};"]
-    lines += textwrap.wrap(said, 80, initial_indent="  ", subsequent_indent="  ")
+    lines = textwrap.wrap(f"ledger of the paper: {counted}; {said}", 79, subsequent_indent="  ")
     for row in bad:
         lines.append(f"  no longer holds: {row['entry']} ({row['where']}): {row['problem']}")
     return "\n".join(lines)

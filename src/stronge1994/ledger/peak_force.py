@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from itertools import product
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from planarimpact import bodies, lumped, rigid
 from planarimpact.ground.arrays import Array, ArrayLike, Numbers
@@ -66,6 +65,8 @@ def stick(impact: Contact) -> Gaps:
 @over(lambda: [Contact(zeta2 / 2, beta, zeta2, samples=2001) for beta, zeta2 in contact.PAIRS])
 def stick_velocity(impact: Contact) -> Gaps:
     r"""$v_1$ at $t = \pi/(2 \omega)$, where friction is largest in initial stick, over $v_1(0)$."""
+    from scipy.interpolate import CubicHermiteSpline  # here, as in `contact.cumulative`
+
     path = impact.path
     # dv1/dt is known at the samples too: F1/m1.
     velocity = CubicHermiteSpline(path.t, path.v1, path.force_1 / impact.m1)
@@ -141,6 +142,8 @@ def rigid_limit(shares: Sequence[float]) -> float:
 
     At $x/\beta$ of {shares}.
     """
+    from scipy.interpolate import CubicSpline  # here, as in `contact.cumulative`
+
     (motion,) = contact.normal_motions([1.0])
     compression = slice(motion.at_top + 1)
     force = motion.path.force_2[compression] / motion.force_scale

@@ -87,16 +87,16 @@ def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
     return causes
 
 
-def page(rows: Sequence[Row], symbols: str, template: str) -> str:
+def page(rows: Sequence[Row], symbols: str, template: Path) -> str:
     """The page of the ledger's rows, by a template beside the style that it includes.
 
     `symbols` explains their formulas.
     """
-    environment = templates.environment(Path(template).parent)
+    environment = templates.environment(template.parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
     style = STYLE | GRADE_STYLE | NATURE_STYLE
     found = Counter(row["verdict"] for row in rows)
-    return environment.get_template(Path(template).name).render(
+    return environment.get_template(template.name).render(
         entries=rows,
         symbols=symbols,
         counts={verdict: found[verdict] for verdict in STYLE if found[verdict]},

@@ -5,13 +5,11 @@ Every number that a run computes is one of the key numbers.
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
-from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
 from stronge1994.curve_names import is_of_paper
-from stronge1994.pages import key_numbers, templates
-from stronge1994.verdict_tables import figure_table, verdict_table
+from stronge1994.pages import templates
+from stronge1994.verdict_tables import figure_table
 
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 # Smaller probabilities are shown as `< 0.001`.
@@ -40,29 +38,13 @@ def page(
     numbers: Mapping[str, float],
     verdicts: Sequence[Row],
     pictures: Mapping[str, bytes],
-    template: str,
+    template: Path,
 ) -> str:
     """The note as a page, from key numbers, rows of verdicts, and SVG by their figures."""
-    environment = templates.environment(Path(template).parent)
+    environment = templates.environment(template.parent)
     environment.filters |= {"probability": probability, "count": count}
-    return environment.get_template(Path(template).name).render(
+    return environment.get_template(template.name).render(
         n=numbers,
         figures=[row for row in figure_table.of_run(verdicts) if is_of_paper(row.figure)],
         pictures={name: templates.embedded(svg) for name, svg in pictures.items()},
     )
-
-
-def write(
-    output: str,
-    table: str,
-    paths: Mapping[str, str],
-    series: Mapping[str, Mapping[str, Any]],
-    pictures: Mapping[str, str],
-    template: str,
-) -> None:
-    """Write the table of key numbers, as `key_numbers.of_run` finds them, and the note."""
-    numbers = key_numbers.of_run(paths, series)
-    key_numbers.write(table, numbers)
-    verdicts = csv_tables.read_rows(paths["verdicts"], verdict_table.COLUMNS)
-    svgs = {name: Path(path).read_bytes() for name, path in pictures.items()}
-    Path(output).write_text(page(numbers, verdicts, svgs, template), encoding="utf-8")

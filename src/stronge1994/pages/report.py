@@ -1,21 +1,19 @@
-"""Write the run as one page, and its sources and settings as another.
+"""Write the run as pages: the report here, and what others make of the same tables.
 
-Nothing is solved here. The error of a job that failed stands on top, and in place of what it should
-have made. What cannot be shown is left out and named on top; the gate fails on it.
+Nothing is solved here.
 """
 
 import io
 import re
 import shutil
-import traceback
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
-from stronge1994 import csv_tables
+from stronge1994 import csv_tables, gate, versions
 from stronge1994.csv_tables import Row
 from stronge1994.curve_names import is_of_paper, unit
 from stronge1994.figures.shared.drawing import house_style
@@ -27,12 +25,11 @@ from stronge1994.pages import (
     key_numbers,
     ledger_page,
     names,
-    run_facts,
+    note,
     sources_page,
     templates,
     which_model,
 )
-from stronge1994.run import gate, record
 from stronge1994.verdict_tables import figure_table, verdict_table
 
 MARKS = {
@@ -60,41 +57,14 @@ MEANING = {
     "agrees": "with the paper or with others: p is large enough (published or measured points), or "
     "the distance is within its tolerance",
     "right": "our curve is that of its model: within the tolerance of our second code or of a law",
-    "as before": "it was solved without error, or fitted to these points: no evidence",
+    "as before": "as an earlier result of ours, or fitted to these points: no evidence",
 }
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
 # Tables with a section of the report; their captions stand in files of the same names.
 SECTIONS = ("which_model", "trade")
 
 
-class Salvage:
-    """Call functions, go on where one fails, and keep a message.
-
-    >>> salvage = Salvage()
-    >>> salvage("Fig. 5", "nothing", lambda: {}["curve"])
-    'nothing'
-    >>> salvage.problems
-    ["Fig. 5: KeyError: 'curve'"]
-    """
-
-    def __init__(self) -> None:
-        self.problems: list[str] = []
-
-    def __call__(
-        self, what: str, otherwise: Any, function: Callable[..., Any], *arguments: Any
-    ) -> Any:
-        """What the function returns, or `otherwise`."""
-        try:
-            return function(*arguments)
-        except csv_tables.Failed:  # the record of the job that failed has the error
-            return otherwise
-        except Exception as error:
-            traceback.print_exc()  # into the log of the job
-            self.problems.append(f"{what}: {type(error).__name__}: {error}")
-            return otherwise
-
-
-def page(values: TemplateValues, template: str | Path) -> str:
+def page(values: TemplateValues, template: Path) -> str:
     """The report, from `values` as `write` makes them."""
     verdicts, entries = values["verdicts"], {row["entry"] for row in values["ledger"]}
 
@@ -103,14 +73,14 @@ def page(values: TemplateValues, template: str | Path) -> str:
         name = row["note"].removeprefix(verdict_table.LEDGER)
         return name if name in entries else None
 
-    environment = templates.environment(Path(template).parent)
+    environment = templates.environment(template.parent)
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "bounds": bounds,
         "measured": measured,
     }
     environment.tests["in_paper"] = is_of_paper
-    return environment.get_template(Path(template).name).render(
+    return environment.get_template(template.name).render(
         values,
         lapsed=outcome.failing(values["ledger"]),
         grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
@@ -147,7 +117,7 @@ def figure(
     caption: str,
     residuals: list[Row],
     verdicts: list[Row],
-    config: Mapping[str, Any],
+    has_slide: bool,
 ) -> TemplateValues:
     """Values of the template for one figure."""
     rows = [row for row in verdicts if row["figure"] == name]
@@ -159,7 +129,7 @@ def figure(
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
         "rows": rows,
         "has_residuals": bool(residuals),
-        "has_slide": name in config["slides"],
+        "has_slide": has_slide,
         "strips": templates.embedded(_svg(strips)) if strips else None,
     }
 
@@ -187,60 +157,59 @@ def copy_tables(folder: str | Path, paths: Iterable[str]) -> None:
 
 
 def write(
-    output: str,
-    problems: str,
-    paths: Mapping[str, str],
-    residuals: Mapping[str, str],
-    svgs: Mapping[str, str],
-    records: Iterable[str],
-    template: str | Path,
-    settings: Mapping[str, Any],
+    given: Any,
+    made: Any,
+    *,
+    config: Mapping[str, Any],
+    captions: Mapping[str, str],
+    slides: Collection[str],
+    sources: Mapping[str, Any],
+    stated: Mapping[str, Mapping[str, Any]],
+    symbols: str,
+    rows: Collection[str],
+    entries: Collection[str],
 ) -> None:
-    """Read the tables and pictures of a run; write the report, its sources, and its own problems.
+    """Write all pages and the tables that belong to them; files and settings are those of the rule.
 
-    `paths` are the files of the tables `verdicts`, `ledger`, `key_numbers` and `which_model`;
-    captions of tables stand in files beside the template. `records` are those of the jobs that made
-    all this. `settings` are those of the rule: `captions` of the figures, `config`, the contents of
-    data/*/source.yaml as `sources`, and the rows that `gate.faults_of_tables` asks for. A page that
-    cannot be made is not written.
+    `captions` are those of the figures, `slides` names those that have one. `sources` holds
+    data/*/source.yaml, `stated` the series of which the note states numbers, `symbols` those of the
+    ledger; `rows` and `entries` are as in `gate.faults`.
     """
-    salvage, read, config = Salvage(), csv_tables.read_rows, settings["config"]
-    rows = salvage("verdicts", [], read, paths["verdicts"], verdict_table.COLUMNS)
-    ledger = salvage("ledger", [], read, paths["ledger"], outcome.COLUMNS)
-    faults = record.errors(records)
-    faults += gate.faults_of_tables(rows, ledger, settings["comparisons"], settings["entries"])
-    rows = [_with_formulas(row, config) for row in rows if row["verdict"] in MARKS]
-
-    def section(name: str) -> TemplateValues:
-        picture, caption = Path(svgs[name]).read_bytes(), settings["captions"][name]
-        distances = salvage("residuals", [], read, residuals[name])
-        return figure(name, picture, caption, distances, rows, config)
-
-    def caption(name: str) -> str:
-        return Path(template).with_name(f"{name}.rst").read_text(encoding="utf-8").strip()
-
-    figures = {name: salvage(names.figure(name), None, section, name) for name in svgs}
-    answers = salvage("which_model", [], read, paths["which_model"])
-    run = run_facts.of_run()
+    verdicts = verdict_table.gather(given.verdicts)
+    csv_tables.write_table(made.verdicts, verdicts, verdict_table.COLUMNS)
+    ledger, answers = csv_tables.read_rows(given.ledger), csv_tables.read_rows(given.which_model)
+    tables = [made.verdicts, given.ledger, given.in_nature, *given.curves]
+    numbers = key_numbers.of_run({Path(path).stem: path for path in tables}, stated)
+    key_numbers.write(made.numbers, numbers)
+    copied = [made.verdicts, given.trade, given.which_model, *given.curves, *given.residuals]
+    copy_tables(made.tables, copied)
+    pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
+    shown = [_with_formulas(row, config) for row in verdicts]
+    figures = {
+        name: figure(
+            name, picture, captions[name], csv_tables.read_rows(path), shown, name in slides
+        )
+        for (name, picture), path in zip(pictures.items(), given.residuals, strict=True)
+    }
+    folder, run = templates.SHARED, versions.of_run(given.versions)
     values = {
-        "verdicts": rows,
-        "ledger": [row for row in ledger if row["verdict"] in ledger_page.STYLE],
-        "figures": {name: part for name, part in figures.items() if part},
-        "captions": {name: caption(name) for name in SECTIONS},
-        "cases": salvage("which_model", [], which_model.cases, answers),
-        "n": salvage("key numbers", {}, key_numbers.read, paths["key_numbers"]),
+        "verdicts": shown,
+        "ledger": ledger,
+        "figures": figures,
+        "captions": {
+            name: (folder / f"{name}.rst").read_text("utf-8").strip() for name in SECTIONS
+        },
+        "cases": which_model.cases(answers),
+        "n": numbers,
         "significance": config["significance"],
         "run": run,
+        "faults": gate.faults(verdicts, ledger, rows, entries),
     }
-    of_sources = Path(template).with_name("sources.html")
     pages = {
-        Path(output).with_name("sources.html"): salvage(
-            "sources of data", None, sources_page.page, settings["sources"], config, run, of_sources
-        )
+        made.report: page(values, folder / "report.html"),
+        made.sources: sources_page.page(sources, config, run, folder / "sources.html"),
+        made.note: note.page(numbers, verdicts, pictures, folder / "note.html"),
+        made.ledger: ledger_page.page(ledger, symbols, folder / "ledger.html"),
     }
-    values["faults"] = faults + salvage.problems
-    pages[Path(output)] = salvage("report", None, page, values, template)
     for path, text in pages.items():
-        if text is not None:
-            path.write_text(text, encoding="utf-8")
-    csv_tables.write_rows(problems, ["problem"], [[problem] for problem in salvage.problems])
+        Path(path).write_text(text, encoding="utf-8")

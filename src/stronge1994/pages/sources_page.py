@@ -17,7 +17,7 @@ def page(
     sources: Mapping[str, Any],
     config: Mapping[str, Any],
     run: Mapping[str, Any],
-    template: str | Path,
+    template: Path,
 ) -> str:
     """The page of sources and settings, from data/*/source.yaml and the config of the run."""
     comparisons = config["comparisons"].items()
@@ -26,8 +26,8 @@ def page(
         | {"comparisons": {name: c for name, c in comparisons if c["figure"] == figure}}
         for figure, entry in config["figures"].items()
     }
-    environment = templates.environment(Path(template).parent)
-    return environment.get_template(Path(template).name).render(
+    environment = templates.environment(template.parent)
+    return environment.get_template(template.name).render(
         sources=sources,
         shared={key: config[key] for key in SHARED},
         settings={figure: in_yaml(part) for figure, part in settings.items()},

@@ -1,7 +1,7 @@
 """YAML 1.2, refused where a reader of YAML 1.1, as Snakemake has, finds something else in it.
 
 PyYAML, of YAML 1.1, silently keeps the last of two equal keys, reads 010 as 8, 6:40 as 400, 1_21 as
-121, no as false, and takes 4e-1 for a text. Snakemake's config has its numbers from `NUMBERS` too.
+121, no as false, and takes 4e-1 for a text.
 """
 
 import re

@@ -3,7 +3,6 @@
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from enum import StrEnum
-from pathlib import Path
 
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Row
@@ -56,20 +55,8 @@ DIFFERENCES = [Verdict.UNEXPLAINED, Verdict.UNTESTED, Verdict.EXPLAINED]
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
-    """Rows of several tables.
-
-    In place of a table that was not made stands one row that fails.
-    """
-    rows = []
-    for path in paths:
-        try:
-            rows += csv_tables.read_rows(path, COLUMNS)
-        except csv_tables.Failed as error:
-            name = Path(path).stem
-            cells = {"figure": name, "comparison": f"{name}-solved", "question": QUESTIONS[0]}
-            cells |= {"verdict": Verdict.WRONG, "note": f"{error}"}
-            rows.append(dict.fromkeys(COLUMNS, "") | cells)
-    return rows
+    """Rows of several tables."""
+    return [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
 
 
 def why(row: Row) -> str:

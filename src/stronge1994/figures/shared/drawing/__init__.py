@@ -16,22 +16,27 @@ from stronge1994.figures.shared.drawing.house_style import Points, Series
 
 
 def draw(
-    figure: str, plan: Mapping[str, Any], curves_path: str, pictures: Mapping[str, str]
+    figure: str,
+    stated: Mapping[str, Any],
+    curves_path: str,
+    pictures: Mapping[str, str],
+    source: str = "",
 ) -> None:
-    """Draw `figure` as `svg` and `png`, and, if its plan has a slide, that as `light` and `dark`.
+    """Draw `figure` as `svg` and `png`, and, if it has a slide, that as `light` and `dark`.
 
-    The plan has the settings, the reference series that are not awaited, and facts.
+    `stated` has its settings, the reference series that are not awaited, facts, and its slide.
+    `source` says in the pictures' metadata what made them.
     """
     module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
-    curves, points = csv_tables.read(curves_path), series(plan["overlays"])
+    curves, points = csv_tables.read(curves_path), series(stated["overlays"])
 
     def drawn() -> Figure:
-        return with_all(module.draw(curves, plan["settings"], points), points)
+        return with_all(module.draw(curves, stated["settings"], points), points)
 
-    house_style.save(drawn(), pictures["svg"], pictures["png"])
-    if plan["slide"]:
+    house_style.save(drawn(), pictures["svg"], pictures["png"], source)
+    if stated["slide"]:
         grounds = {name: pictures[name] for name in ("light", "dark")}
-        slide.save(drawn(), **plan["slide"], **grounds)
+        slide.save(drawn(), **stated["slide"], **grounds, source=source)
 
 
 def with_all(figure: Figure, points: Points) -> Figure:
@@ -56,7 +61,7 @@ def with_all(figure: Figure, points: Points) -> Figure:
 
 
 def series(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
-    """Reference series as a drawing gets them, from the overlays of its plan."""
+    """Reference series as a drawing gets them, from its overlays."""
     return {
         name: _points(name, entry) if "kind" in entry else dict(entry)
         for name, entry in overlays.items()

@@ -125,8 +125,11 @@ def new(height: float) -> Figure:
     return Figure(figsize=(WIDTH, height), layout="constrained")
 
 
-def save(figure: Figure, svg: File, png: File | None = None) -> None:
-    """Write both files of a figure. The same figure gives the same bytes."""
+def save(figure: Figure, svg: File, png: File | None = None, source: str = "") -> None:
+    """Write both files of a figure; `source` goes to their metadata.
+
+    The same figure gives the same bytes: they do not say when it was drawn.
+    """
     # Matplotlib solves the layout in an order that changes from run to run, which changes the last
     # bits. So the places are rounded.
     if layout := figure.get_layout_engine():
@@ -138,8 +141,8 @@ def save(figure: Figure, svg: File, png: File | None = None) -> None:
     # `Figure.savefig` would draw once more to solve the layout again.
     figure.dpi = 200  # of the PNG, and of pixels inside the SVG
     if png:
-        FigureCanvasAgg(figure).print_png(png)
-    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
+        FigureCanvasAgg(figure).print_png(png, metadata={"Source": source})
+    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None, "Source": source})
 
 
 def symbols(name: str) -> str:

@@ -12,6 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 # Inches: the letters are as large as in the figure, and 1920 pixels wide.
 WIDTH, HEIGHT = 6.4, 3.6
@@ -19,8 +20,8 @@ DOTS_PER_INCH = 300
 DARK = np.array([0x15, 0x18, 0x1C])  # ground of the pages and of the lectures
 
 
-def save(figure: Figure, panel: str, title: str, light: str, dark: str) -> None:
-    """Reduce a figure to one panel, and write both files."""
+def save(figure: Figure, panel: str, title: str, light: str, dark: str, source: str = "") -> None:
+    """Reduce a figure to one panel, and write both files; `source` goes to their metadata."""
     kept = next(a for a in figure.axes if f"({panel})" in a.get_ylabel() + a.get_title())
     legends = figure.findobj(Legend)
     known = {text.get_text() for legend in legends for text in legend.get_texts()}
@@ -45,6 +46,9 @@ def save(figure: Figure, panel: str, title: str, light: str, dark: str) -> None:
     # The other lightness with the same hue and saturation, from the dark ground on.
     ends = pixels.max(axis=2, keepdims=True) + pixels.min(axis=2, keepdims=True)
     other = DARK + (pixels + 255 - ends) * (255 - DARK) // 255
+    made_by = PngInfo()
+    made_by.add_text("Source", source)
     for picture, file in ((pixels, light), (other, dark)):
         # 256 colours make a small file; lines have few.
-        Image.fromarray(picture.astype(np.uint8)).quantize(256).save(file)
+        few = Image.fromarray(picture.astype(np.uint8)).quantize(256)
+        few.save(file, pnginfo=made_by)

@@ -1,6 +1,7 @@
-"""Facts about a run: versions, computer, date and commit."""
+"""What a run was made with: versions, computer, date and commit."""
 
 import datetime
+import json
 import os
 import platform
 import subprocess
@@ -8,14 +9,23 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-PACKAGES = ("planarimpact", "numpy", "scipy", "matplotlib", "pandas", "snakemake")
+PACKAGES = ("numpy", "scipy", "matplotlib", "pandas", "snakemake")
 NO_COMMIT = "unknown: not a git checkout, or git is missing"
 
 
-def of_run() -> dict[str, Any]:
-    """All facts about the run in this folder, by name."""
+def installed(solver: str) -> dict[str, str]:
+    """Versions of Python, of the `solver` and of packages that a run uses, `{name: version}`.
+
+    That of the solver is given: pictures import this module, and so would depend on all of it.
+    """
+    own = {"python": platform.python_version(), "planarimpact": solver}
+    return own | {name: metadata.version(name) for name in PACKAGES}
+
+
+def of_run(path: str) -> dict[str, Any]:
+    """Facts about a run, by name: the versions in its table of versions, and what is so now."""
     return {
-        "versions": versions(),
+        "versions": json.loads(Path(path).read_text(encoding="utf-8")),
         # Without the name of the machine.
         "system": f"{platform.platform()}, {os.cpu_count()} processors",
         "date": f"{datetime.datetime.now(datetime.UTC):%d %B %Y, %H:%M} UTC",
@@ -23,15 +33,10 @@ def of_run() -> dict[str, Any]:
     }
 
 
-def versions() -> dict[str, str]:
-    """Versions of Python and of the packages that a run uses, `{name: version}`."""
-    by_package = {"python": platform.python_version()}
-    for name in PACKAGES:
-        try:
-            by_package[name] = metadata.version(name)
-        except metadata.PackageNotFoundError:
-            by_package[name] = "not installed"
-    return by_package
+def source(path: str) -> str:
+    """What made a picture, for its metadata; `path` is the table of versions of the run."""
+    own = json.loads(Path(path).read_text(encoding="utf-8"))["planarimpact"]
+    return f"planarimpact {own}, commit {commit('.')}"
 
 
 def commit(folder: str | Path) -> str:

@@ -24,8 +24,9 @@ def stated() -> dict[str, Stated]:
     contents = {}
     for name in sorted(names - {"shared", "__pycache__"}, key=place):
         path = _file(name)
-        if not re.fullmatch("[a-z][a-z0-9_]*", name):
-            raise reference_data.SourceError(f"{path.parent}: allowed are a to z, 0 to 9 and _")
+        if not re.fullmatch("(?!scene_)[a-z][a-z0-9_]*", name):
+            problem = "allowed are a to z, 0 to 9 and _, and not scene_ at the beginning"
+            raise reference_data.SourceError(f"{path.parent}: {problem}")
         contents[name] = reference_data.load_yaml(path)
         reference_data.refuse_invalid(contents[name], schema("figure"), path)
         settings = contents[name]["settings"]

@@ -1,13 +1,13 @@
 """The config, which is refused before any work where it is not admissible."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
 from stronge1994.curve_names import SCENE
-from stronge1994.plan import figures
 from stronge1994.reference_data import strict_yaml
+from stronge1994.settings import figures
 
 Config: TypeAlias = dict[str, Any]  # what the config files hold
 Inventory: TypeAlias = dict[str, Any]  # `{source: contents of its source.yaml}`
@@ -24,13 +24,28 @@ OF_SCENES = (
 )
 
 
-class ConfigError(Exception):
-    """The config, a module, or a file that the rules read is not admissible."""
+class ConfigError(reference_data.SourceError):
+    """The config is not admissible."""
 
 
-def load(folder: str | Path = ".") -> Config:
-    """The whole config of a checkout."""
-    return complete(reference_data.load_yaml(Path(folder) / FILE))
+def load(files: Iterable[str | Path] = (FILE,), arguments: Iterable[str] = ()) -> Config:
+    """The whole config: files, each over those before it, and the arguments of --config over them.
+
+    They are read as YAML 1.2. Snakemake's own reader would take 010 for 8, and yes for true.
+    """
+    config: Config = {}
+    for file in files:
+        config = overridden(config, reference_data.load_yaml(file))
+    given: Config = {}
+    for text in arguments:
+        name, _, value = text.partition("=")
+        if name in given:
+            raise ConfigError(f"--config {name}: it is there twice")
+        try:
+            given |= strict_yaml.load(f"{name}: {value}")
+        except ValueError as error:
+            raise ConfigError(f"--config {text!a}: {str(error).partition(': ')[2]}") from None
+    return complete(overridden(config, given))
 
 
 def complete(config: Config) -> Config:
@@ -83,45 +98,9 @@ def schema() -> dict[str, Any]:
     }
 
 
-def with_values(node: Any) -> Any:
-    """Numbers and booleans in place of the texts that snakemake makes of them in --config."""
-    if isinstance(node, dict):
-        return {key: with_values(value) for key, value in node.items()}
-    if isinstance(node, list):
-        return [with_values(value) for value in node]
-    if isinstance(node, str) and node.lower() in ("true", "false"):
-        return node.lower() == "true"
-    if isinstance(node, str):
-        for tag, number in {"int": int, "float": float}.items():
-            if strict_yaml.NUMBERS[tag].fullmatch(node):
-                return number(node)
-        plain = node.lower().replace(".", "")
-        if plain in ("nan", "inf", "-inf"):  # to be refused as numbers, not as texts
-            return float(plain)
-    return node
-
-
-def refuse_misread_values(arguments: Collection[str]) -> None:
-    """Refuse a --config that is given twice, or whose values Snakemake would misread."""
-    names = [text.partition("=")[0] for text in arguments]
-    for text, name in zip(arguments, names, strict=True):
-        if names.count(name) > 1:
-            raise ConfigError(f"--config {name}: it is there twice")
-        value = text.partition("=")[2]
-        if not value.isascii():
-            raise ConfigError(f"--config {name}={value!a}: allowed are values in ASCII")
-        try:
-            strict_yaml.load(f"{name}: {value}")
-        except ValueError as error:
-            raise ConfigError(f"--config {text}: {str(error).partition(': ')[2]}") from None
-
-
 def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) -> None:
     """Refuse an inadmissible config, naming the field, its value and what is allowed."""
-    try:
-        reference_data.refuse_invalid(config, schema(), "config")
-    except reference_data.SourceError as error:
-        raise ConfigError(str(error)) from None
+    reference_data.refuse_invalid(config, schema(), "config")
     for figure, stated in figures.stated().items():
         for key, setting in stated["settings"].items():
             where, value = f"config: figures.{figure}.{key}", config["figures"][figure][key]

@@ -1,21 +1,18 @@
-"""Settings and references that the rules need before they run."""
+"""What the rules need of the config and of each figure.yaml, checked and completed.
+
+All is found before Snakemake looks at a rule: where an input function raises, Snakemake drops the
+rule, and silently takes its old output for a source file.
+"""
 
 from collections.abc import Mapping
 from typing import Any
 
 from stronge1994 import reference_data
-from stronge1994.plan import figures
-from stronge1994.plan.config import (
-    SHARED,
-    Config,
-    Entry,
-    Inventory,
-    reference,
-    table_of,
-)
+from stronge1994.settings import figures
+from stronge1994.settings.config import SHARED, Config, Entry, Inventory, reference, table_of
 
 
-def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
+def physics(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
     """Settings of one figure: shared physics and its own, an experiment by its parameters."""
     stated = figures.stated()[figure]
     own = config["figures"][figure]
@@ -31,7 +28,7 @@ def settings(config: Config, inventory: Inventory, figure: str) -> dict[str, Any
     return chosen
 
 
-def settings_of_explorer(config: Config) -> dict[str, Any]:
+def of_explorer(config: Config) -> dict[str, Any]:
     """Shared physics, and the impacts of the figures that the explorer offers."""
     keys = ("incidence", "friction", "restitution")
     chosen = {}
@@ -47,41 +44,33 @@ def comparisons(config: Config, name: str) -> dict[str, Entry]:
     return {title: dict(entry) for title, entry in chosen if entry["figure"] == name}
 
 
-def plan_of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
-    """Settings of the job that judges one figure or scene, the files that it reads, and its rows.
+def of_figure(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
+    """What the rules of one figure need: settings of its curves and of its drawing, and files."""
+    nodes, drawn = nodes_of(config, inventory, figure), overlays(config, inventory, figure)
+    own = physics(config, inventory, figure)
+    return {
+        "curves": {"settings": own, "nodes": nodes},
+        "tables": list(nodes),
+        "drawing": {
+            "settings": own,
+            "overlays": drawn,
+            "slide": figures.stated()[figure].get("slide"),
+        },
+        "series": _files(drawn),
+    }
 
-    `rows` are those that its table of verdicts must have: `{comparison: is it awaited}`.
-    """
-    named, known = comparisons(config, name), references(config, inventory, name)
+
+def of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
+    """What the rule that judges a figure or a scene needs."""
+    known = references(config, inventory, name)
     return {
         "settings": {
-            "comparisons": named,
+            "comparisons": comparisons(config, name),
             "references": known,
             "significance": config["significance"],
         },
         "table": table_of(name),
         "series": _files(known),
-        "rows": {f"{name}-solved": False}
-        | {
-            title: known.get(entry.get("reference", ""), {}).get("kind") == "awaited"
-            for title, entry in named.items()
-        },
-    }
-
-
-def plan_of_figure(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
-    """Settings of the rules of one figure, and the files that they read.
-
-    It is called for each figure before Snakemake looks at a rule: where an input function raises,
-    Snakemake drops the rule and silently takes its old output for a source file.
-    """
-    tables, drawn = nodes_of(config, inventory, figure), overlays(config, inventory, figure)
-    return {
-        "settings": settings(config, inventory, figure),
-        "nodes": tables,
-        "tables": list(tables),
-        "overlays": drawn,
-        "series": _files(drawn),
     }
 
 

@@ -1,0 +1,10 @@
+"""The log of a job."""
+
+import signal
+import sys
+
+
+def to(path: str) -> None:
+    """Send what this process prints, its errors too, to a file; an interrupt ends it in silence."""
+    sys.stdout = sys.stderr = open(path, "w", encoding="utf-8")  # noqa: SIM115  (until it ends)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -1,0 +1,79 @@
+"""Why a run fails, and what it says at its end."""
+
+import pytest
+
+from stronge1994 import csv_tables, gate
+from stronge1994.ledger import outcome
+from stronge1994.verdict_tables import verdict_table
+
+VERDICT = {
+    **dict.fromkeys(verdict_table.COLUMNS, ""),
+    "figure": "fig6", "comparison": "fig6-rebound", "question": "beside others",
+    "verdict": "agrees", "reference": "a/b", "points": 5, "rms [sigma]": 0.1, "max [sigma]": 0.2,
+    "rms [axis units]": 0.01, "max [axis units]": 0.02, "unit": "1", "allowed": "max <= 1",
+}  # fmt: skip
+ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {"entry": "eq-25", "verdict": "wrong", "holds": "yes"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        (({}, {}), None),
+        (({"verdict": "wrong"}, {}), "wrong: fig6-rebound: rms 0.1, max 0.2 sigma; allowed is max"),
+        (({"verdict": "diverges", "note": "oh"}, {}), "diverges: fig6-rebound: oh: rms 0.1"),
+        (({"comparison": "fig6-other"}, {}), "missing: fig6-rebound"),
+        (({}, {"holds": "no", "problem": "oh"}), "no longer holds: eq-25: oh"),
+        (({}, {"entry": "eq-26"}), "missing: eq-25"),
+    ],
+)
+def test_a_row_that_fails_or_is_missing_is_a_fault(changes, fault):
+    verdict, entry = VERDICT | changes[0], ENTRY | changes[1]
+    found = gate.faults([verdict], [entry], ["fig6-rebound"], ["eq-25"])
+    assert len(found) == bool(fault) and all(words.startswith(fault) for words in found)
+
+
+@pytest.fixture
+def words(tmp_path, monkeypatch):
+    """Function: last words of a run that judges two figures and the ledger, or a part of it."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "results").mkdir()
+    csv_tables.write_table(gate.LEDGER, [ENTRY], outcome.COLUMNS)
+
+    def told(verdict="agrees", tables=2, failed=None, passed=(), config=(), whole=True):
+        rows = [VERDICT | {"verdict": verdict, "comparison": f"row-{i}"} for i in range(10)]
+        for i in range(2):
+            csv_tables.write_table(f"{i}.csv", rows[5 * i :][:5], verdict_table.COLUMNS)
+        names, paths = [row["comparison"] for row in rows], [f"{i}.csv" for i in range(tables)]
+        logs, stopped = {job: f"{job}.log" for job in failed or ()}, failed is not None
+        entries = ["eq-25"] if whole else []
+        return gate.last_words(paths, names[: 5 * tables], entries, logs, passed, stopped, config)
+
+    return told
+
+
+def test_a_passed_run_says_where_to_look_and_what_next(words):
+    said = words(passed=["all"])
+    assert "beside others: 10 agrees" in said and "1 wrong" in said and "PASSED." in said
+    for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
+        assert path in said
+    said = words(passed=["paper"], tables=1, whole=False)
+    assert "row-4" in said and "No comparison fails" in said and "PASSED" not in said
+
+
+def test_a_failed_run_names_its_rows_last_and_repeats_the_config(words):
+    said = words("diverges", config=["a=1", "figures={fig6: {restitution: [0, 1]}}"])
+    assert "PASSED" not in said and "Play" not in said
+    assert "figures --config a=1 'figures={fig6: {restitution: [0, 1]}}'" in said
+    last = said.strip().splitlines()[-gate.MOST_FAULTS - 2 :]
+    assert last[0] == "FAILED. Reasons: 10" and last[1].startswith("diverges: row-0: rms 0.1")
+    assert last[-1].startswith("  and 2 more: results/")
+
+
+def test_a_run_that_stopped_names_its_jobs_and_what_was_judged(words):
+    said = words(tables=1, failed=["curves fig9"], passed=["fig6"], whole=False)
+    assert "failed: curves fig9 (log: curves fig9.log)" in said and "row-4" in said
+    assert "No comparison fails" not in said
+    nothing = words(tables=0, failed=[], whole=False)
+    assert "row-" not in nothing
+    for told in (said, nothing):
+        assert "PASSED" not in told and "what was finished is kept" in " ".join(told.split())

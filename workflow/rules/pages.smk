@@ -1,0 +1,151 @@
+# Pages show what the tables of a run say. Each includes these beside its own template.
+EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html", "workflow/report/page.css"]
+# Series of which the note states numbers. It needs them, fig5, inelastic, rubber_sphere and yielding.
+STATED = {
+    "pairs": SOURCES["cornell1999"]["series"]["pairs"],
+    "runs": SOURCES["finite_elements"]["series"]["spheres"],
+}
+
+
+rule report:
+    """The run as pages: the report, its sources and settings, the note, the ledger of the paper."""
+    input:
+        versions="results/versions.json",
+        ledger="results/ledger.csv",
+        in_nature="results/in_nature.csv",
+        trade="results/trade.csv",
+        which_model="results/which_model.csv",
+        verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
+        residuals=expand("results/residuals/{judged}.csv", judged=FIGURES),
+        curves=expand("results/curves/{figure}.csv", figure=FIGURES),
+        pictures=expand("figures/{figure}.svg", figure=FIGURES),
+        stated=[series["path"] for series in STATED.values()],
+        parts=sorted(map(str, Path("workflow/report").glob("*.*"))),
+    output:
+        report="figures/report.html",
+        sources="figures/sources.html",
+        note="figures/note.html",
+        ledger="figures/ledger.html",
+        tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
+        verdicts="results/verdicts.csv",
+        numbers="results/key_numbers.csv",
+    log:
+        "results/logs/report.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        # A function, as Snakemake takes braces in a text for a wildcard: those of formulas.
+        settings=lambda _: {
+            "config": config,
+            "captions": {name: stated["caption"] for name, stated in figures.stated().items()},
+            "slides": SLIDES,
+            "sources": SOURCES,
+            "stated": STATED,
+            "symbols": reference_data.load_yaml(LEDGER)["symbols"],
+            "rows": rows_of(JUDGED),
+            "entries": ENTRIES,
+        },
+        content=digest("workflow/scripts/write_report.py"),
+    script:
+        "../scripts/write_report.py"
+
+
+rule trade_tables:
+    """Error and time of every model as tables."""
+    input:
+        "results/curves/trade.csv",
+    output:
+        table="results/trade.csv",
+        answers="results/which_model.csv",
+    log:
+        "results/logs/trade.log",
+    priority: 1  # a lecture waits for it
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        content=digest("workflow/scripts/write_trade.py"),
+    script:
+        "../scripts/write_trade.py"
+
+
+rule lecture:
+    """Run one notebook: a lecture that checks the numbers that it states."""
+    input:
+        versions="results/versions.json",
+        notebook="workflow/notebooks/{notebook}.ipynb",
+        tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/trade.csv"),
+        style="workflow/notebooks/lecture.mplstyle",
+        page="workflow/report/notebook.html",
+        slides="workflow/report/slides.html",
+        parts=[*EVERY_PAGE, "workflow/report/model.svg"],
+    output:
+        executed="results/notebooks/{notebook}.ipynb",
+        page="figures/{notebook}.html",
+        slides="figures/slides_{notebook}.html",
+        answers="figures/answers_{notebook}.html",
+    log:
+        "results/logs/lecture_{notebook}.log",
+    priority: 1  # as it is long
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        # Cells import the solver alone, so that a notebook runs where only that is installed.
+        content=digest("workflow/scripts/run_lecture.py", "src/planarimpact"),
+    script:
+        "../scripts/run_lecture.py"
+
+
+rule explorer:
+    """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
+    input:
+        versions="results/versions.json",
+        sources=sorted(map(str, Path("workflow/explorer").glob("*.*"))),
+        start="workflow/report/index.html",
+        parts=EVERY_PAGE,
+    output:
+        page="figures/explorer.html",
+        start="figures/index.html",
+    log:
+        "results/logs/explorer.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        settings=lambda _: settings.of_explorer(config),
+        content=digest("workflow/scripts/write_explorer.py"),
+    script:
+        "../scripts/write_explorer.py"
+
+
+PAGES = [
+    *rules.report.output,
+    *rules.explorer.output,
+    *rules.trade_tables.output,
+    *expand(rules.lecture.output, notebook=NOTEBOOKS),
+]
+
+
+rule site:
+    """All pages and the interface of the solver in one folder and as a zip file; not part of `all`."""
+    input:
+        made=[
+            *PAGES,
+            *made(JUDGED),
+            *expand("results/verdicts/{judged}.csv", judged=JUDGED),
+            "results/ledger.csv",
+        ],
+        notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS)
+        + ["workflow/notebooks/lecture.mplstyle"],
+        texts=["LICENSE", "CITATION.cff"],
+        parts=["workflow/report/index.html", *EVERY_PAGE],
+        style=expand("workflow/report/interface/{part}", part=["frame.html.jinja2", "custom.css"]),
+    output:
+        folder=directory("results/site"),
+        archive="results/site.zip",
+    log:
+        "results/logs/site.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        content=digest("workflow/scripts/write_site.py", "src/planarimpact"),
+    script:
+        "../scripts/write_site.py"
