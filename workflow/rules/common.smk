@@ -129,20 +129,16 @@ def last_words(stopped):
     failed = [job for job in workflow.scheduler.failed if job.output]  # but for the gates
     done = {path for job in set(jobs) - set(dag.needrun_jobs()) for path in job.output}
     targets = {"all": JUDGED, "paper": PAPER} | {name: [name] for name in JUDGED}
-    asked = {job.rule.name for job in jobs} & targets.keys()
-    judged = [name for name in JUDGED if any(name in targets[target] for target in asked)]
-    tables = {name: f"results/verdicts/{name}.csv" for name in judged}
+    gates = {job.rule.name: job for job in jobs if job.rule.name in targets}
+    judged = {name for target in gates for name in targets[target]}
+    tables = {name: f"results/verdicts/{name}.csv" for name in JUDGED if name in judged}
     tables = {name: table for name, table in tables.items() if table in done}
     return gate.last_words(
         list(tables.values()),
         rows_of(tables),
-        ENTRIES if "all" in asked and gate.LEDGER in done else [],
+        ENTRIES if "all" in gates and gate.LEDGER in done else [],
         {f"{job.name} {' '.join(job.wildcards)}".strip(): f"{job.log}" for job in failed},
-        {
-            job.rule.name
-            for job in jobs
-            if job.rule.name in asked and dag.finished(job) and not workflow.touch
-        },
+        {name for name, job in gates.items() if dag.finished(job) and not workflow.touch},
         stopped,
         workflow.config_settings.config_args or [],
     )
