@@ -16,7 +16,7 @@ from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number
 from stronge1994.ledger import finding, outcome
-from stronge1994.pages import key_numbers, note, which_model
+from stronge1994.pages import note, which_model
 from stronge1994.pages import report as write_report
 from stronge1994.verdict_tables import verdict_table
 from tests.unit.test_figure_table import SIZES
@@ -43,8 +43,8 @@ def tables(first_run):
 
 
 @pytest.fixture(scope="module")
-def numbers(first_run):
-    return key_numbers.read(first_run[0] / "results/key_numbers.csv")
+def numbers(tables):
+    return {row["name"]: float(row["value"]) for row in tables("key_numbers")}
 
 
 def test_each_is_one_file_that_needs_nothing_else(pages):

@@ -57,7 +57,7 @@ rule ledger:
     """Check every entry of the paper's ledger against the paper's model, solved to rounding."""
     input:
         versions="results/versions.json",
-        entries="data/stronge1994/ledger.yaml",
+        entries=LEDGER,
         facts="data/stronge1994/source.yaml",  # to which entries refer
         schema="workflow/schemas/ledger.schema.yaml",
     output:
@@ -72,7 +72,7 @@ rule ledger:
         content=digest(
             "workflow/scripts/check_ledger.py",
             "src/stronge1994/ledger",
-            "data/stronge1994/ledger.yaml",
+            LEDGER,
             "data/stronge1994/source.yaml",
         ),
     script:

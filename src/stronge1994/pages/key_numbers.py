@@ -29,20 +29,27 @@ LARGEST_FRICTION, LEAST_RESTITUTION = 0.1, 0.45
 NEAR_RESTITUTIONS = (0.62, 0.92)  # restitutions at which two Kelvin-Voigt elements are near
 
 
-def of_run(paths: Mapping[str, str], series: Mapping[str, Mapping[str, Any]]) -> Numbers:
+def of_run(
+    verdicts: Sequence[Row],
+    ledger: Sequence[Row],
+    measures: Sequence[Row],
+    curves: Mapping[str, str],
+    series: Mapping[str, Mapping[str, Any]],
+) -> Numbers:
     """All key numbers by name; one that is not finite is an error.
 
-    `paths` are tables of the run by the names of their files. `series` has the entries in
-    source.yaml of the measured `pairs` of materials and of the finite-element `runs`.
+    `measures` are those of the ledger in nature, `curves` the tables of curves by their figures.
+    `series` has the entries in source.yaml of the measured `pairs` of materials and of the
+    finite-element `runs`.
     """
-    rows, curves = csv_tables.read_rows, csv_tables.read
+    read = csv_tables.read
     numbers = (
-        _counts(rows(paths["verdicts"]), rows(paths["ledger"]))
-        | _elastic(curves(paths["fig5"]))
-        | _pairs(curves(paths["inelastic"]), reference_data.arrays(series["pairs"]))
-        | _yielding(curves(paths["yielding"]), reference_data.arrays(series["runs"]))
-        | _rubber(curves(paths["rubber_sphere"]))
-        | _nature(rows(paths["in_nature"]))
+        _counts(verdicts, ledger)
+        | _elastic(read(curves["fig5"]))
+        | _pairs(read(curves["inelastic"]), reference_data.arrays(series["pairs"]))
+        | _yielding(read(curves["yielding"]), reference_data.arrays(series["runs"]))
+        | _rubber(read(curves["rubber_sphere"]))
+        | _nature(measures)
     )
     if not_finite := [name for name, value in numbers.items() if not np.isfinite(value)]:
         raise ArithmeticError(f"{', '.join(not_finite)}: not a finite number")
@@ -53,11 +60,6 @@ def write(path: str, numbers: Numbers) -> None:
     """Write the numbers as a table."""
     rows = [[name, f"{value:.12g}"] for name, value in numbers.items()]
     csv_tables.write_rows(path, ["name", "value"], rows)
-
-
-def read(path: str) -> Numbers:
-    """Read what `write` wrote."""
-    return {row["name"]: float(row["value"]) for row in csv_tables.read_rows(path)}
 
 
 def _counts(verdicts: Sequence[Row], ledger: Sequence[Row]) -> Numbers:

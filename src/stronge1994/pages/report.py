@@ -177,19 +177,19 @@ def write(
     """
     verdicts = verdict_table.gather(given.verdicts)
     csv_tables.write_table(made.verdicts, verdicts, verdict_table.COLUMNS)
-    ledger, answers = csv_tables.read_rows(given.ledger), csv_tables.read_rows(given.which_model)
-    tables = [made.verdicts, given.ledger, given.in_nature, *given.curves]
-    numbers = key_numbers.of_run({Path(path).stem: path for path in tables}, stated)
+    tables = (given.ledger, given.in_nature, given.which_model)
+    ledger, measures, answers = (csv_tables.read_rows(path) for path in tables)
+    curves = {Path(path).stem: path for path in given.curves}
+    numbers = key_numbers.of_run(verdicts, ledger, measures, curves, stated)
     key_numbers.write(made.numbers, numbers)
     copied = [made.verdicts, given.trade, given.which_model, *given.curves, *given.residuals]
     copy_tables(made.tables, copied)
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
+    residuals = {Path(path).stem: csv_tables.read_rows(path) for path in given.residuals}
     shown = [_with_formulas(row, config) for row in verdicts]
     figures = {
-        name: figure(
-            name, picture, captions[name], csv_tables.read_rows(path), shown, name in slides
-        )
-        for (name, picture), path in zip(pictures.items(), given.residuals, strict=True)
+        name: figure(name, picture, captions[name], residuals[name], shown, name in slides)
+        for name, picture in pictures.items()
     }
     folder, run = templates.SHARED, versions.of_run(given.versions)
     values = {

@@ -28,7 +28,7 @@ class ConfigError(reference_data.SourceError):
     """The config is not admissible."""
 
 
-def load(files: Iterable[str | Path] = (FILE,), arguments: Iterable[str] = ()) -> Config:
+def load(files: Iterable[str | Path], arguments: Iterable[str] = ()) -> Config:
     """The whole config: files, each over those before it, and the arguments of --config over them.
 
     They are read as YAML 1.2. Snakemake's own reader would take 010 for 8, and yes for true.

@@ -102,9 +102,7 @@ def _source_of(row: Row) -> str:
 
 
 def _worst_first(rows: Iterable[Row]) -> list[Row]:
-    """Rows by verdict; one that cannot be is worse than all."""
-    rank = {verdict: place for place, verdict in enumerate(ORDER)}
-    return sorted(rows, key=lambda row: rank.get(row["verdict"], -1))
+    return sorted(rows, key=lambda row: ORDER.index(row["verdict"]))
 
 
 def _names(rows: Iterable[Row]) -> list[str]:
