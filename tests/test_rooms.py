@@ -17,57 +17,57 @@ APART = "tests.reference_solutions"
 # The solver. Models of contact do not know each other, but noncollinear asks lumped which losses
 # there are; nothing here knows the reproduction.
 SOLVER = {
-    "ground": "",
-    "normal_impact": "ground",
-    "rigid": "ground",
-    "lumped": "ground",
-    "continuum": "ground normal_impact",
-    "bodies": "ground normal_impact",
-    "noncollinear": "ground bodies lumped",
-    "spheres": "ground normal_impact continuum",
-    "models": "ground normal_impact rigid lumped continuum spheres",
-    "export": "planarimpact ground normal_impact collision spheres",
-    "fit": "ground normal_impact bodies continuum spheres models",
-    "collision": "ground normal_impact bodies continuum models spheres",
-    "scene": "ground bodies collision pandas",
+    "common": "",
+    "normal_impact": "common",
+    "rigid": "common",
+    "lumped": "common",
+    "continuum": "common normal_impact",
+    "bodies": "common normal_impact",
+    "noncollinear": "common bodies lumped",
+    "spheres": "common normal_impact continuum",
+    "models": "common normal_impact rigid lumped continuum spheres",
+    "export": "planarimpact common normal_impact collision spheres",
+    "fit": "common normal_impact bodies continuum spheres models",
+    "collision": "common normal_impact bodies continuum models spheres",
+    "scene": "common bodies collision pandas",
     "__init__": (
-        "planarimpact ground normal_impact rigid lumped continuum bodies noncollinear spheres"
+        "planarimpact common normal_impact rigid lumped continuum bodies noncollinear spheres"
         " models export fit collision scene"
     ),
-    "__main__": ("planarimpact ground bodies lumped continuum models export fit collision scene"),
+    "__main__": ("planarimpact common bodies lumped continuum models export fit collision scene"),
 }
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {
     "__init__": "",
     "one_thread": "",
-    "csv_tables": "ground",
+    "csv_tables": "common",
     "verdict_tables": "csv_tables curve_names",
     "curve_names": "",
     "formulas": "",
-    "goodness": "ground",
-    "reference_data": "ground csv_tables",
-    "printed": "ground lumped",
-    "explorer": "planarimpact ground lumped continuum bodies collision reference_data pages",
-    "figures/solving": "planarimpact ground bodies rigid lumped continuum noncollinear models"
+    "goodness": "common",
+    "reference_data": "common csv_tables",
+    "printed": "common lumped",
+    "explorer": "planarimpact common lumped continuum bodies collision reference_data pages",
+    "figures/solving": "planarimpact common bodies rigid lumped continuum noncollinear models"
     " fit scene pandas printed csv_tables curve_names figures settings",
-    "figures/drawing": "planarimpact ground csv_tables curve_names goodness reference_data figures"
+    "figures/drawing": "planarimpact common csv_tables curve_names goodness reference_data figures"
     " verdict_tables matplotlib",
-    "ledger": "ground bodies rigid lumped continuum noncollinear models"
+    "ledger": "common bodies rigid lumped continuum noncollinear models"
     " printed csv_tables reference_data judging",
-    "judging": "ground csv_tables curve_names formulas goodness reference_data verdict_tables",
+    "judging": "common csv_tables curve_names formulas goodness reference_data verdict_tables",
     "settings": "reference_data curve_names",
     "imports": "",
     "versions": "",
     "logs": "",
     "gate": "csv_tables verdict_tables ledger",
-    "pages": "ground bodies export csv_tables reference_data figures formulas goodness judging"
+    "pages": "common bodies export csv_tables reference_data figures formulas goodness judging"
     " ledger settings gate versions curve_names verdict_tables jinja2",
 }
 # The figures have one folder each, and in it files that solve and files that draw, or that judge
 # what is drawn.
 DRAWING = ("drawing", "draw_", "trials")
 ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
-# A room of the solver is entered by its `__init__` or by one of these. Each file of the ground and
+# A room of the solver is entered by its `__init__` or by one of these. Each file of the common and
 # of the reproduction has a door of its own.
 SIDE_DOORS = {
     "continuum.inelastic",  # single steps, from which the table of spheres is made
@@ -101,7 +101,7 @@ def trespasses(package, room, source):
             yield "a drawing never solves"
         file = SRC.joinpath(top, *inner[:2])
         enters = len(inner) > 1 and (file.is_dir() or file.with_suffix(".py").is_file())
-        if top == "planarimpact" and name != "ground" and enters:
+        if top == "planarimpact" and name != "common" and enters:
             door = ".".join(inner[:2])
             if door not in SIDE_DOORS:
                 yield f"{room} may not enter {door}: it is no door"

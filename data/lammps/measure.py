@@ -18,8 +18,8 @@ import numpy as np
 import yaml
 
 from planarimpact import bodies, fit
+from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.fit import overlaps
-from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994 import csv_tables
 from stronge1994.figures.fitted_laws import curves
 

@@ -22,7 +22,7 @@ import numpy as np
 from scipy import optimize
 
 from planarimpact import continuum, models
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from stronge1994 import csv_tables, one_thread  # noqa: F401
 from stronge1994.figures.trade import curves as trade
 

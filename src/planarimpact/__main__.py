@@ -21,10 +21,10 @@ from planarimpact import (
     lumped,
     models,
 )
+from planarimpact.common import checks
+from planarimpact.common.arrays import ArrayLike
+from planarimpact.common.results import History, Rebound, Regime
 from planarimpact.continuum import ContinuumHistory
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import ArrayLike
-from planarimpact.ground.results import History, Rebound, Regime
 from planarimpact.scene import columns as scene_columns
 
 ABOUT = """

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact.ground import csv_text
+from planarimpact.common import csv_text
 
 Column: TypeAlias = NDArray[Any]  # numbers, or texts
 Columns: TypeAlias = dict[str, Column]

@@ -8,7 +8,7 @@ import warnings
 
 import pytest
 
-from planarimpact.ground.checks import ConvergenceError
+from planarimpact.common.checks import ConvergenceError
 from stronge1994 import judging, reference_data
 from stronge1994 import settings as figure_settings
 from stronge1994.figures.shared import drawing as drawings

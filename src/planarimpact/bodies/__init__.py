@@ -79,9 +79,9 @@ from planarimpact.bodies.restitution import (
 )
 from planarimpact.bodies.restitution import time_unit as time_unit
 from planarimpact.bodies.restitution import unchecked_yield_speed as unchecked_yield_speed
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.checks import checked, finite, not_negative, positive
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.checks import checked, finite, not_negative, positive
 
 __all__ = [
     "COUPLING",

@@ -13,9 +13,9 @@ import numpy as np
 
 from planarimpact.bodies.materials import hertz_peak_force
 from planarimpact.bodies.quantities import OutOfRange, all_positive, in_range, quietly
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Number
-from planarimpact.ground.checks import checked, not_negative, positive
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Number
+from planarimpact.common.checks import checked, not_negative, positive
 from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, LOSSES, kelvin_voigt, yielding
 
 # Relative rounding error of a relaxation time that `relaxation_time` returns.

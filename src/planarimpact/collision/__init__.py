@@ -36,11 +36,11 @@ from planarimpact.collision.pairs import Pair
 from planarimpact.collision.presets import Preset, presets
 from planarimpact.collision.rungs import TOLERANCE as TOLERANCE
 from planarimpact.collision.rungs import Answers, answers
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.checks import InputError
+from planarimpact.common.results import Regime
 from planarimpact.continuum import Unsolved
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.checks import InputError
-from planarimpact.ground.results import Regime
 from planarimpact.normal_impact import LOSSES as LOSSES
 
 __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]

@@ -10,8 +10,8 @@ import numpy as np
 from planarimpact import continuum, spheres
 from planarimpact.collision import rungs
 from planarimpact.collision.mechanics import Impacts
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Integers
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, Integers
 
 # Tolerance of the continuum with the other loss, mu v2(0) and v1(0): two digits of the difference
 # suffice.

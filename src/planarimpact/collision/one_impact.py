@@ -17,8 +17,8 @@ from planarimpact.bodies import Body
 from planarimpact.collision.mechanics import cross, dot
 from planarimpact.collision.pairs import PLAIN_LEAST, PLAIN_MOST, Pair
 from planarimpact.collision.rungs import table_error
-from planarimpact.ground import checks
-from planarimpact.ground.results import Regime
+from planarimpact.common import checks
+from planarimpact.common.results import Regime
 from planarimpact.normal_impact import kelvin_voigt, yielding
 from planarimpact.spheres import table
 

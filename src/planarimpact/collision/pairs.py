@@ -6,9 +6,9 @@ import numpy as np
 
 from planarimpact import bodies, normal_impact
 from planarimpact.bodies import Material
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import LARGEST, SMALLEST, Array, ArrayLike, Booleans
-from planarimpact.ground.checks import InputError
+from planarimpact.common import checks
+from planarimpact.common.arrays import LARGEST, SMALLEST, Array, ArrayLike, Booleans
+from planarimpact.common.checks import InputError
 from planarimpact.normal_impact import LOSSES
 
 # What says how much energy is lost, and the loss if that says it too: restitution itself, or a

@@ -12,10 +12,10 @@ import numpy as np
 
 from planarimpact import continuum, models, spheres
 from planarimpact.collision.mechanics import Impacts, slides_throughout
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Integers
-from planarimpact.ground.checks import ConvergenceError
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.checks import ConvergenceError
+from planarimpact.common.results import Rebound, Regime
 
 # Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
 # that is solved has no larger error in v1(0) either, so that friction of any size has an effect.

@@ -14,12 +14,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Rebound
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.refinement import Unsolved as Unsolved
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
 from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.normal_impact import hertz
 
@@ -213,7 +213,7 @@ def slip_throughout_limit(
 
     Notes
     -----
-    Derived in `planarimpact.ground.sliding`, and for plastic loss in `inelastic.plastic`.
+    Derived in `planarimpact.common.sliding`, and for plastic loss in `inelastic.plastic`.
 
     Examples
     --------

@@ -20,8 +20,8 @@ u has changed by d.
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Integers, Numbers
 
 
 class ElasticSprings:

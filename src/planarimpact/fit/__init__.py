@@ -16,10 +16,10 @@ cost.
 import numpy as np
 
 from planarimpact import continuum, spheres
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.fit.codes import CODES, Code, Error, Fit, lines
 from planarimpact.fit.overlaps import overlap
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.models import timestep
 
 __all__ = ["CODES", "Code", "Error", "Fit", "fit", "lines", "overlap"]

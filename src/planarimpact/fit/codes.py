@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import bodies
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.fit import overlaps
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.models import timestep
 from planarimpact.models.timestep import Law
 from planarimpact.normal_impact import hertz

@@ -30,9 +30,9 @@ differ from it, and to a measured rubber sphere it is the nearest. At e = 0.8 it
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import History, Rebound
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import History, Rebound
 from planarimpact.lumped.losses import LOSSES as LOSSES
 from planarimpact.lumped.losses import loss_of
 from planarimpact.lumped.stick_slip import Impacts
@@ -121,7 +121,7 @@ def slip_throughout_limit(
 ) -> Array:
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
-    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger; `ground.sliding` derives
+    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger; `common.sliding` derives
     it. The paper prints (1 + e) beta (heading of Eq. 26), but by its own conditions for the end of
     the first slip, Eqs 17 to 20, that slip does not end above the value given here.
 

@@ -5,9 +5,9 @@ A loss has four functions of impacts x >= 0. At e = 1 all losses are the same mo
 
 import numpy as np
 
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import History
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array
+from planarimpact.common.results import History
 from planarimpact.lumped import hysteretic, viscous
 from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts, Outcome

@@ -25,11 +25,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground import sliding
-from planarimpact.ground.angles import HALF_PI, sin_cos
-from planarimpact.ground.arrays import Array, Integers, Numbers
-from planarimpact.ground.checks import ConvergenceError, InputError
-from planarimpact.ground.results import Regime
+from planarimpact.common import sliding
+from planarimpact.common.angles import HALF_PI, sin_cos
+from planarimpact.common.arrays import Array, Integers, Numbers
+from planarimpact.common.checks import ConvergenceError, InputError
+from planarimpact.common.results import Regime
 from planarimpact.lumped import normal, slip_onset
 from planarimpact.lumped.extremes import many_phases
 

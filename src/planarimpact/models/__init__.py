@@ -21,10 +21,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import continuum, lumped, rigid, spheres
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Rebound
 from planarimpact.continuum import annuli
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
 from planarimpact.models import laws, timestep
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.

@@ -66,9 +66,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers, Numbers
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers, Numbers
+from planarimpact.common.results import Rebound, Regime
 from planarimpact.normal_impact import hertz
 
 STEPS = 64

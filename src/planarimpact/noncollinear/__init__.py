@@ -23,10 +23,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError, InputError, checked, finite, positive
-from planarimpact.ground.results import Regime
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.checks import ConvergenceError, InputError, checked, finite, positive
+from planarimpact.common.results import Regime
 from planarimpact.noncollinear import rigid
 from planarimpact.noncollinear.configuration import (
     InverseMass,

@@ -16,7 +16,7 @@ Units, except in `hertz`: E* = 1, R = 1, m2 = 1, |v2(0)| = 1, so that Hertz's fo
 from collections.abc import Callable
 from typing import NamedTuple
 
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from planarimpact.normal_impact import hertz, kelvin_voigt, yielding
 
 __all__ = ["LAWS", "LEAST_RESTITUTION", "LOSSES", "Law", "hertz", "kelvin_voigt", "yielding"]

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from planarimpact.collision import LOSSES, RESTITUTION_FROM
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import LARGEST, SMALLEST, Array, Booleans
-from planarimpact.ground.checks import InputError
+from planarimpact.common import checks
+from planarimpact.common.arrays import LARGEST, SMALLEST, Array, Booleans
+from planarimpact.common.checks import InputError
 
 if TYPE_CHECKING:
     import pandas as pd

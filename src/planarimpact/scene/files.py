@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from planarimpact.collision import TOLERANCE
-from planarimpact.ground import checks, csv_text, files
-from planarimpact.ground.checks import InputError
+from planarimpact.common import checks, csv_text, files
+from planarimpact.common.checks import InputError
 from planarimpact.scene import columns
 from planarimpact.scene.solver import BLOCK, Solver
 

@@ -7,10 +7,10 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, mechanics, model_form, rungs
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError, InputError
-from planarimpact.ground.results import Regime
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.checks import ConvergenceError, InputError
+from planarimpact.common.results import Regime
 from planarimpact.scene import columns, states
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from planarimpact import bodies
 from planarimpact.bodies import Body, Material
 from planarimpact.collision import LOSSES, RESTITUTION_FROM, Pair, mechanics
 from planarimpact.collision.mechanics import Impacts, State
-from planarimpact.ground.arrays import LARGEST, Array
+from planarimpact.common.arrays import LARGEST, Array
 from planarimpact.scene.columns import AXES, PLANE
 
 

@@ -9,9 +9,9 @@ to 3.5. Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's 
 
 import numpy as np
 
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.results import Rebound, Regime
 from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.spheres import table
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.common.arrays import Array, ArrayLike
 
 
 class Residuals(NamedTuple):

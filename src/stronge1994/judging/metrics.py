@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from stronge1994 import curve_names, reference_data
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.judging import distances, landmarks

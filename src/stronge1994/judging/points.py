@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans
+from planarimpact.common.arrays import Array, ArrayLike, Booleans
 from stronge1994 import reference_data
 from stronge1994.csv_tables import Columns
 from stronge1994.curve_names import AS_PRINTED

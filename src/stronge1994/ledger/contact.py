@@ -14,8 +14,8 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from planarimpact import lumped, models
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.results import Event, EventKind, History, Rebound
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.results import Event, EventKind, History, Rebound
 from stronge1994.printed import dynamics, slip
 
 # The sphere of the paper's examples (p. 444), and others, all with omega > Omega as it assumes,

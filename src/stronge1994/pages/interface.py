@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, get_args
 from unittest import mock
 
-from planarimpact.ground import arrays
+from planarimpact.common import arrays
 from stronge1994 import csv_tables
 from stronge1994.pages import templates
 

@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground import checks, csv_text
+from planarimpact.common import checks, csv_text
 from stronge1994 import csv_tables
 from stronge1994.csv_tables import Columns
 from stronge1994.reference_data import strict_yaml

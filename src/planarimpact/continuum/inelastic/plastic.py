@@ -19,11 +19,11 @@ from typing import Any
 
 import numpy as np
 
+from planarimpact.common import cubics, roots, sliding
+from planarimpact.common.arrays import Array, Booleans
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.motion import NormalMotion, Springs
-from planarimpact.ground import cubics, roots, sliding
-from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import yielding as law
 
 # Places among which the start of stick in plastic compression is first sought.

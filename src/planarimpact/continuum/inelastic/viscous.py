@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from planarimpact.common.arrays import Array, Booleans
 from planarimpact.continuum.inelastic.motion import MOST_STEPS, NormalMotion, Springs
-from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import kelvin_voigt as law
 
 

@@ -13,7 +13,7 @@ Three changes, none of which alters a digit of an ordinary answer:
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from planarimpact.lumped import stick_slip
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 

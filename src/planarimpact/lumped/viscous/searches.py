@@ -40,8 +40,8 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from planarimpact.ground import roots
-from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.common import roots
+from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.lumped.viscous.elements import Elements
 
 # What rounding may take from a margin, as a share of its terms.

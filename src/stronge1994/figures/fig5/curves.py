@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 from planarimpact import continuum, lumped, rigid
-from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common.arrays import Array
+from planarimpact.common.results import Rebound, Regime
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import CONTINUA
 from stronge1994.figures.shared.curves import as_printed as printed_curves

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Regime
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Regime
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import CONTINUA
 from stronge1994.figures.shared.drawing import beside, house_style

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from planarimpact import lumped
-from planarimpact.ground.results import Regime
+from planarimpact.common.results import Regime
 from stronge1994.csv_tables import Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.shared.curves import as_printed as printed_curves

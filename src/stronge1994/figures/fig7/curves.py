@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from planarimpact import lumped, rigid
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.common.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.shared.curves import as_printed as printed_curves

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from planarimpact import lumped, rigid
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from stronge1994.csv_tables import Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.shared.curves import as_printed as printed_curves

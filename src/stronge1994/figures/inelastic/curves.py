@@ -13,9 +13,9 @@ from scipy.interpolate import CubicSpline
 
 from planarimpact import bodies
 from planarimpact.bodies import Material
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import MODELS, name
 from stronge1994.figures.shared.curves import beside

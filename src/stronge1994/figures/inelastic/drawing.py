@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from scipy.special import chdtri
 
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
 from stronge1994.figures.inelastic.trials import BETA_0, SIGNIFICANCE, E, goodness, trials

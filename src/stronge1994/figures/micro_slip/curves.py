@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from planarimpact import continuum, lumped
+from planarimpact.common.results import History
 from planarimpact.continuum import ContinuumHistory
-from planarimpact.ground.results import History
 from stronge1994.csv_tables import Columns, Curves
 
 

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from planarimpact import noncollinear
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Regime
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Regime
 from planarimpact.noncollinear import InverseMass, NoncollinearHistory, NoncollinearRebound, rigid
 from planarimpact.noncollinear.rigid import ImpulsiveRebound, Law
 from stronge1994.csv_tables import Columns, Curves

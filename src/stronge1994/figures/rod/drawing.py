@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc
 
-from planarimpact.ground.results import Regime
+from planarimpact.common.results import Regime
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.drawing import histories, house_style
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Settings, Style

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.common.arrays import Array, ArrayLike
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import ELASTIC, MODELS, SIGNS, name, shifted
 from stronge1994.figures.shared.curves import beside

@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from stronge1994.csv_tables import Curves
 
 GROUPS = {

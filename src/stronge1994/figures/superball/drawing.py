@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from planarimpact.ground.results import Regime
+from planarimpact.common.results import Regime
 from stronge1994.csv_tables import Curves
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Points, Settings

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from planarimpact import continuum, models
-from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import Rebound
+from planarimpact.common.arrays import Array
+from planarimpact.common.results import Rebound
 from stronge1994.csv_tables import Curves
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from planarimpact import continuum
+from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
-from planarimpact.ground.arrays import Array, ArrayLike
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import ELASTIC_IN_SHEAR, name

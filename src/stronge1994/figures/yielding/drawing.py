@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from planarimpact.ground.arrays import Booleans
+from planarimpact.common.arrays import Booleans
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import ELASTIC_IN_SHEAR, name
 from stronge1994.figures.shared.drawing import beside, house_style

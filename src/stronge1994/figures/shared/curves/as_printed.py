@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planarimpact.ground.arrays import ArrayLike, Booleans
+from planarimpact.common.arrays import ArrayLike, Booleans
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import AS_PRINTED, NO_SOLUTION
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from planarimpact import bodies, models
 from planarimpact.bodies import Material
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Rebound
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import EACH, SIGNS, name, shifted
 

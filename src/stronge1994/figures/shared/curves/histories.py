@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground.results import History
+from planarimpact.common.results import History
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.curve_names import name
 

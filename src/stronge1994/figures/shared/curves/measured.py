@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import ArrayLike
+from planarimpact.common import sliding
+from planarimpact.common.arrays import ArrayLike
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Columns, Curves
 from stronge1994.figures.shared.curves import beside

@@ -34,7 +34,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from planarimpact.ground.arrays import Booleans
+from planarimpact.common.arrays import Booleans
 from stronge1994 import curve_names
 from stronge1994.csv_tables import Curves
 

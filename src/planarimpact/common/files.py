@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from planarimpact.ground.checks import InputError
+from planarimpact.common.checks import InputError
 
 
 @contextmanager

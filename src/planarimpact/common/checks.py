@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
 
 # Largest incidence and mass ratio: twice as much is still below the largest float64.
 LARGEST = 8e307
