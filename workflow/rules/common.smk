@@ -21,7 +21,7 @@ logging.raiseExceptions = False
 shell.prefix("set -euo pipefail; trap '' INT; ")
 import planarimpact
 from stronge1994 import gate, imports, reference_data, settings, versions
-from stronge1994.curve_names import is_of_paper
+from stronge1994.names import is_of_paper
 from stronge1994.ledger import entries
 from stronge1994.settings import config as configuration
 from stronge1994.settings import figures

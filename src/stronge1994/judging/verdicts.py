@@ -4,63 +4,58 @@ Published points that agree with a curve are evidence only if they could have di
 verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas.
 """
 
-from collections.abc import Mapping
-
 from stronge1994.goodness import ChiSquared, chi_squared
+from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured
-from stronge1994.judging.points import Entry, Reference, is_published, question
-from stronge1994.verdict_tables.verdict_table import FAILED, QUESTIONS, Verdict
+from stronge1994.reference_data import Series
+from stronge1994.verdict_table import Question, Verdict
 
 # If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
 # curve is wrong. A comparison that does not notice it says less than the picture.
 VISIBLE_SHIFT = 2.0
 
 
-def chi_squared_of(reference: Reference, measured: Measured) -> ChiSquared:
-    """Chi-squared of measured distances from published points."""
-    return chi_squared(measured.residuals.sigmas, measured.shifts, reference.get("sigma_values"))
+def chi_squared_of(comparison: Comparison, measured: Measured) -> ChiSquared | None:
+    """Chi-squared of measured distances from published points; None of all others."""
+    if not (comparison.is_published and isinstance(comparison.reference, Series)):
+        return None
+    number = comparison.reference.sigma_values
+    return chi_squared(measured.residuals.sigmas, measured.shifts, number)
 
 
-def judge(entry: Entry, reference: Reference, measured: Measured, significance: float) -> Verdict:
+def judge(comparison: Comparison, measured: Measured, significance: float) -> Verdict:
     """Verdict on measured distances; published points agree if p is above `significance`."""
-    outcome, asked = _outcome(entry, reference, measured, significance), question(entry, reference)
+    outcome = _outcome(comparison, measured, significance)
     if outcome == Verdict.DIVERGES:
-        return FAILED[asked]
+        return comparison.question.failed
     if outcome != Verdict.AGREES:
         return outcome
-    if entry.get("fitted"):
+    if comparison.fitted:
         return Verdict.UNCHANGED
-    if asked == QUESTIONS[0]:
+    if comparison.question == Question.SOLVED:
         return Verdict.RIGHT
-    for off in (VISIBLE_SHIFT, -VISIBLE_SHIFT) if is_published(reference) else ():
+    for off in (VISIBLE_SHIFT, -VISIBLE_SHIFT) if comparison.is_published else ():
         residuals = measured.residuals._replace(sigmas=measured.residuals.sigmas + off)
         moved = measured._replace(residuals=residuals)
-        if _outcome(entry, reference, moved, significance) != Verdict.DIVERGES:
+        if _outcome(comparison, moved, significance) != Verdict.DIVERGES:
             return Verdict.INCONCLUSIVE
     return outcome
 
 
-def _outcome(
-    entry: Entry, reference: Reference, measured: Measured, significance: float
-) -> Verdict:
+def _outcome(comparison: Comparison, measured: Measured, significance: float) -> Verdict:
     """AGREES or DIVERGES; or the known difference that the comparison documents.
 
-    It diverges too if there is no difference any more, or if the difference has left the bounds of
-    its regression test.
+    It diverges too if there is no difference any more, or if the difference has left its bounds.
     """
     rms, largest = rms_and_max(measured.residuals.sigmas)
     # The difference of a landmark is its value minus the stated one.
     difference = -float(measured.residuals.plain[0])
     numbers = {"rms": rms, "max": largest, "difference": difference}
-    if is_published(reference):
-        chi2 = chi_squared_of(reference, measured)
+    good, known = largest <= comparison.limit, comparison.known
+    if chi2 := chi_squared_of(comparison, measured):
         good, numbers["chi2"] = chi2.p > significance, chi2.value
-    else:
-        good = largest <= entry.get("limit", 1.0)
-    bounds: Mapping[str, tuple[float, float]] = entry.get("regression", {})
-    unchanged = all(low <= numbers[key] <= high for key, (low, high) in bounds.items())
-    known = entry.get("documented", {}).get("as")
-    if not unchanged or good == bool(known):
-        return Verdict.DIVERGES
-    return Verdict.AGREES if good else Verdict(f"{known} difference")
+    if known is None:
+        return Verdict.AGREES if good else Verdict.DIVERGES
+    unchanged = all(low <= numbers[key] <= high for key, (low, high) in known.bounds.items())
+    return known.verdict if unchanged and not good else Verdict.DIVERGES

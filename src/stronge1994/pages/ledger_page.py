@@ -7,10 +7,11 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from stronge1994.csv_tables import Row
+from stronge1994 import words
 from stronge1994.formulas import mathematical
 from stronge1994.ledger import finding, outcome
-from stronge1994.pages import names, templates
+from stronge1994.pages import templates
+from stronge1994.tables import Row
 
 # Classes of the style, by verdict, by grade, and by verdict in nature.
 STYLE = {
@@ -64,10 +65,10 @@ def linked_maths(entries: Collection[str], page: str = "") -> Callable[[str], Ma
         for found in NAME.finditer(text):
             name, link = found[0], Markup('<a href="{}#{}">{}</a>')
             if name in entries:
-                linked = link.format(page, name, names.entry(name))
+                linked = link.format(page, name, words.entry(name))
             elif text[: found.start()].endswith("comparison "):
-                figure = names.figure(name.partition("-")[0])
-                linked = link.format("report.html", name, f"{figure}, {names.comparison(name)}")
+                figure = words.figure(name.partition("-")[0])
+                linked = link.format("report.html", name, f"{figure}, {words.comparison(name)}")
             else:
                 continue
             html += mathematical(text[done : found.start()]) + linked

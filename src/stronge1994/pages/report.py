@@ -13,24 +13,23 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
-from stronge1994 import csv_tables, gate, versions
-from stronge1994.csv_tables import Row
-from stronge1994.curve_names import is_of_paper, unit
+from stronge1994 import figure_table, gate, tables, verdict_table, versions, words
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
+from stronge1994.names import is_of_paper
 from stronge1994.pages import (
     key_numbers,
     ledger_page,
-    names,
     note,
     sources_page,
     templates,
     which_model,
 )
-from stronge1994.verdict_tables import figure_table, verdict_table
+from stronge1994.tables import Row
+from stronge1994.verdict_table import Verdict
 
 MARKS = {
     "wrong": "fails",
@@ -85,9 +84,9 @@ def page(values: TemplateValues, template: Path) -> str:
         lapsed=outcome.failing(values["ledger"]),
         grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
         verdict_counts=Counter(row["verdict"] for row in verdicts),
-        known=[row for row in verdicts if row["verdict"] in verdict_table.DIFFERENCES],
-        differences=verdict_table.DIFFERENCES,
-        fails=list(verdict_table.FAILS),
+        known=[row for row in verdicts if Verdict(row["verdict"]).differs],
+        differences=[verdict for verdict in Verdict if verdict.differs],
+        fails=[verdict for verdict in Verdict if verdict.fails],
         figure_table_rows=figure_table.of_run(verdicts),
         marks=MARKS,
         verdict_meaning=MEANING,
@@ -98,7 +97,7 @@ def page(values: TemplateValues, template: Path) -> str:
 def measured(row: Row) -> Markup:
     """How large the distance of a row of the verdict table is, its unit as a formula."""
     value, _, stated = row["stated"].partition(" ")
-    shown = {"stated": f"{value}{unit(stated)}", "unit": unit(row["unit"]).strip()}
+    shown = {"stated": f"{value}{words.unit(stated)}", "unit": words.unit(row["unit"]).strip()}
     return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
 
 
@@ -123,7 +122,7 @@ def figure(
     rows = [row for row in verdicts if row["figure"] == name]
     strips = draw_residuals.strips(residuals, {row["comparison"]: row for row in rows})
     return {
-        "title": names.figure(name),
+        "title": words.figure(name),
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
@@ -176,16 +175,16 @@ def write(
     ledger; `rows` and `entries` are as in `gate.faults`.
     """
     verdicts = verdict_table.gather(given.verdicts)
-    csv_tables.write_table(made.verdicts, verdicts, verdict_table.COLUMNS)
-    tables = (given.ledger, given.in_nature, given.which_model)
-    ledger, measures, answers = (csv_tables.read_rows(path) for path in tables)
+    tables.write_rows(made.verdicts, verdicts, verdict_table.COLUMNS)
+    others = (given.ledger, given.in_nature, given.which_model)
+    ledger, measures, answers = map(tables.read_rows, others)
     curves = {Path(path).stem: path for path in given.curves}
     numbers = key_numbers.of_run(verdicts, ledger, measures, curves, stated)
     key_numbers.write(made.numbers, numbers)
     copied = [made.verdicts, given.trade, given.which_model, *given.curves, *given.residuals]
     copy_tables(made.tables, copied)
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
-    residuals = {Path(path).stem: csv_tables.read_rows(path) for path in given.residuals}
+    residuals = {Path(path).stem: tables.read_rows(path) for path in given.residuals}
     shown = [_with_formulas(row, config) for row in verdicts]
     figures = {
         name: figure(name, picture, captions[name], residuals[name], shown, name in slides)

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from stronge1994.csv_tables import Row
+from stronge1994.tables import Row
 
 MODEL = re.compile(r"model_(\d+)")
 

@@ -111,10 +111,10 @@ def expanded(name: str, entry: Mapping[str, Any]) -> Iterator[tuple[str, dict[st
     replaces its name in braces in all texts; a key of a comparison is also entered into it.
 
     >>> each = {"model": ["lumped"], "regime": ["initial stick", "slip throughout"]}
-    >>> for comparison in expanded("{model}-{regime}", {"each": each, "curve": "{model}, rubber"}):
+    >>> for comparison in expanded("{model}-{regime}", {"each": each, "curve": {"model": "{model}"}}):
     ...     print(*comparison)
-    lumped-initial-stick {'curve': 'lumped, rubber', 'regime': 'initial stick'}
-    lumped-slip-throughout {'curve': 'lumped, rubber', 'regime': 'slip throughout'}
+    lumped-initial-stick {'curve': {'model': 'lumped'}, 'regime': 'initial stick'}
+    lumped-slip-throughout {'curve': {'model': 'lumped'}, 'regime': 'slip throughout'}
     """
     common = {key: value for key, value in entry.items() if key != "each"}
     keys = definitions()["comparison"]["properties"]
@@ -131,6 +131,8 @@ def _filled(node: Any, case: Mapping[str, Any]) -> Any:
     if isinstance(node, dict):
         return {key: _filled(value, case) for key, value in node.items()}
     if isinstance(node, str):
+        if node[1:-1] in case and node == f"{{{node[1:-1]}}}":
+            return case[node[1:-1]]  # a number stays one
         for key, value in case.items():
             node = node.replace(f"{{{key}}}", str(value))
     return node

@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 
+from stronge1994.csv_tables import Columns, Curves
+
 from planarimpact import continuum, lumped
 from planarimpact.common.results import History
 from planarimpact.continuum import ContinuumHistory
-from stronge1994.csv_tables import Columns, Curves
 
 
 def curves(

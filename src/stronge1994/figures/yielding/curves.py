@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
+from stronge1994.csv_tables import Columns, Curves
+from stronge1994.curve_names import ELASTIC_IN_SHEAR, name
 
 from planarimpact import continuum
 from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from stronge1994 import curve_names
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import ELASTIC_IN_SHEAR, name
 from stronge1994.figures.shared.curves import beside
 from stronge1994.figures.shared.curves.sampling import vertices
 

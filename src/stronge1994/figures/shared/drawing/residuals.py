@@ -9,9 +9,9 @@ from typing import Any, TypeAlias
 
 from matplotlib.figure import Figure
 
-from stronge1994.csv_tables import Row
 from stronge1994.figures.shared.drawing import house_style
-from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS, Verdict
+from stronge1994.tables import Row
+from stronge1994.verdict_table import Question, Verdict, fails
 
 # Inches: height of a strip with its title, and of the label of its x axis.
 STRIP, LABEL = 0.56, 0.42
@@ -29,7 +29,11 @@ MARKS: dict[str, dict[str, Any]] = {
     Verdict.INCONCLUSIVE: _hollow("o", house_style.BLACK),
     Verdict.EXPLAINED: _hollow("s", house_style.BLUE),
     Verdict.UNEXPLAINED: _hollow("D", house_style.PURPLE),
-    **dict.fromkeys(FAILS, {"color": house_style.VERMILLION, "marker": "x", "markersize": 4}),
+    **{
+        verdict: {"color": house_style.VERMILLION, "marker": "x", "markersize": 4}
+        for verdict in Verdict
+        if verdict.fails
+    },
 }
 DISTANCE = "distance [sigma]"
 # Curve, reference and quantity of a strip; and its points, x and distance, by their verdict.
@@ -46,8 +50,8 @@ def strips(residuals: Sequence[Row], verdicts: Mapping[str, Row]) -> dict[Strip,
     for row in residuals:
         judged = verdicts[row["comparison"]]
         # A landmark is one point. Of printed equations the figure draws both curves.
-        shows_more = not judged["found"] and judged["question"] != QUESTIONS[1]
-        if judged["verdict"] in MARKS and (shows_more or judged["verdict"] in FAILS):
+        shows_more = not judged["found"] and judged["question"] != Question.PRINTED
+        if judged["verdict"] in MARKS and (shows_more or fails(judged)):
             strip = judged["curve"] or "all curves", judged["reference"], row["quantity"]
             part = points.setdefault(strip, {}).setdefault(judged["verdict"], [])
             part.append((float(row["at"]), float(row[DISTANCE])))

@@ -11,13 +11,13 @@ import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from stronge1994.csv_tables import Row
-from stronge1994.curve_names import SCENE, is_of_paper
-from stronge1994.verdict_tables.verdict_table import DIFFERENCES, FAILS, LEDGER, ORDER, QUESTIONS
+from stronge1994.names import SCENE, is_of_paper
+from stronge1994.tables import Row
+from stronge1994.verdict_table import LEDGER, Question, Verdict, fails
 
 SCENES = "scenes"  # one row for all tables of impacts
-# Curves of models that are not the paper's begin so.
-OTHER_MODELS = ("continuum", "lumped.viscous", "lumped.unloading-stiffness")
+# The paper's model, in curves that are selected by their model.
+MODELS_OF_PAPER = ("", "lumped", "lumped.hysteretic")
 LEAST_SHARE = 1e-3  # of a sigma: less is shown as 0
 # Widths of the columns in a terminal of 80. Names of the paper's figures are shorter than others.
 PAPER_WIDTHS, OTHER_WIDTHS = (6, 11, 23, 37), (13, 11, 16, 37)
@@ -72,14 +72,10 @@ def _name(row: Row) -> str:
 
 def _figure_row(name: str, rows: Sequence[Row]) -> FigureRow:
     solved, printed, others = (
-        [row for row in rows if row["question"] == question] for question in QUESTIONS
+        [row for row in rows if row["question"] == question] for question in Question
     )
-    shown = [
-        row
-        for row in others
-        if row["verdict"] in FAILS or not row["curve"].startswith(OTHER_MODELS)
-    ]
-    awaited = [row for row in shown if row["verdict"] == "awaited"]
+    shown = [row for row in others if fails(row) or row["model"] in MODELS_OF_PAPER]
+    awaited = [row for row in shown if row["verdict"] == Verdict.AWAITED]
     present = [row for row in shown if row not in awaited]
     return FigureRow(
         name,
@@ -102,7 +98,8 @@ def _source_of(row: Row) -> str:
 
 
 def _worst_first(rows: Iterable[Row]) -> list[Row]:
-    return sorted(rows, key=lambda row: ORDER.index(row["verdict"]))
+    order = list(Verdict)
+    return sorted(rows, key=lambda row: order.index(Verdict(row["verdict"])))
 
 
 def _names(rows: Iterable[Row]) -> list[str]:
@@ -118,11 +115,11 @@ def _solved(rows: Sequence[Row]) -> Iterator[Item]:
 
     The difference in sigmas is that from second codes: 1 is all that is allowed.
     """
-    wrong = [row for row in rows if row["verdict"] in FAILS]
-    right = [row for row in rows if row["verdict"] == "right"]
-    known = [row for row in rows if row["verdict"] in DIFFERENCES]
+    wrong = [row for row in rows if fails(row)]
+    right = [row for row in rows if row["verdict"] == Verdict.RIGHT]
+    known = [row for row in rows if Verdict(row["verdict"]).differs]
     if wrong:
-        yield Item(_names(wrong), FAILS[0], points=f"{len(wrong)}")
+        yield Item(_names(wrong), Verdict.WRONG, points=f"{len(wrong)}")
     elif right:
         # A table with axes of several units has no difference in the unit of the axis.
         sizes = [float(row["max [axis units]"]) for row in right if row["unit"]]
@@ -158,7 +155,7 @@ def _printed(rows: Sequence[Row]) -> Iterator[Item]:
 def _cause(row: Row) -> str:
     """Entry of the ledger or note of a known difference; of a row that fails without, its name."""
     note = row["note"].partition(";")[0]
-    if row["verdict"] in FAILS and not note.startswith(LEDGER):
+    if fails(row) and not note.startswith(LEDGER):
         return row["comparison"].removeprefix(f"{row['figure']}-")
     return note.removeprefix(LEDGER)
 
@@ -210,19 +207,19 @@ def text(table: Sequence[FigureRow]) -> str:
 
 
 def _solved_words(item: Item) -> str:
-    if item.verdict == "right":
+    if item.verdict == Verdict.RIGHT:
         return f"{item.size or '':5} {item.sigmas}".rstrip() or "right"
-    return f"{item.points} known" if item.verdict not in FAILS else f"{item.points} WRONG"
+    return f"{item.points} WRONG" if item.verdict == Verdict.WRONG else f"{item.points} known"
 
 
 def _printed_words(item: Item) -> str:
     if item.verdict == "agrees":
         return f"{item.points} agree" + ("s" if item.points == "1" else "")
-    mark = "DIVERGES " if item.verdict in FAILS else ""
+    mark = "DIVERGES " if Verdict(item.verdict).fails else ""
     return f"{mark}{item.name}" + (f": {item.size}" if item.size else "")
 
 
 def _source_words(item: Item) -> str:
-    verdict = item.verdict.upper() if item.verdict in FAILS else item.verdict
+    verdict = item.verdict.upper() if Verdict(item.verdict).fails else item.verdict
     numbers = [item.points, item.size, item.sigmas, verdict.removesuffix(" difference")]
     return " ".join([item.name, *(part for part in numbers if part)])

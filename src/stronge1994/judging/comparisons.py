@@ -1,0 +1,191 @@
+"""A comparison: what figure.yaml and source.yaml state of it, read once."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from planarimpact.common.arrays import Array
+from stronge1994 import tables
+from stronge1994.reference_data import Axis, Fact, Series
+from stronge1994.tables import Table
+from stronge1994.verdict_table import Question, Verdict
+
+PAPER = "stronge1994"  # the source that has what the paper states
+
+
+class Metric(StrEnum):
+    """What a comparison measures.
+
+    Against points: the `distance` from a curve, or from its `vertices`. Against a stated fact: a
+    `landmark` of a curve. Against a law, without a reference: a column that must be `small`, or two
+    that must be equal; columns whose values have a `range`; or neighbours that must not leave
+    further apart than they arrive (`contraction`).
+    """
+
+    DISTANCE = "distance"
+    VERTICES = "vertices"
+    LANDMARK = "landmark"
+    SMALL = "small"
+    RANGE = "range"
+    CONTRACTION = "contraction"
+
+
+class Regime(StrEnum):
+    """A part of the axis of incidence; the limits of the regimes divide it into these, in order."""
+
+    STICK = "initial stick"
+    SLIP_STICK = "slip and stick"
+    SLIP = "slip throughout"
+
+
+@dataclass(frozen=True)
+class Landmark:
+    """A landmark of a curve, see `judging.landmarks`; `x` and `y` are columns."""
+
+    kind: str
+    x: str
+    y: str
+    at: float | str | None = None
+
+
+@dataclass(frozen=True)
+class KnownDifference:
+    """A difference that is documented: its verdict, its cause, and bounds that it must not leave.
+
+    The cause is an entry of the ledger or a note. `bounds` are `rms`, `max`, `chi2` or
+    `difference`, about what was found: they say nothing on what is right.
+    """
+
+    verdict: Verdict
+    bounds: Mapping[str, tuple[float, float]]
+    entry: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One comparison of a figure or scene.
+
+    `curve` selects curves by their columns, see `tables.select`; empty, each point of the reference
+    selects its own by its labels. Of the reference are compared only the points with these labels,
+    `points`, in the `regime`. `allowance` is how far the model may be off on both axes.
+    """
+
+    name: str
+    metric: Metric
+    reason: str
+    reference: Series | Fact | None = None
+    curve: Mapping[str, Any] = field(default_factory=dict)
+    points: Mapping[str, Any] = field(default_factory=dict)
+    regime: Regime | None = None
+    allowance: tuple[float, float] | None = None
+    landmark: Landmark | None = None
+    columns: tuple[str, ...] = ()
+    range: tuple[float, float] = (0.0, 0.0)
+    limit: float = 1.0
+    fitted: bool = False
+    known: KnownDifference | None = None
+
+    @classmethod
+    def of(
+        cls, name: str, entry: Mapping[str, Any], references: Mapping[str, Mapping[str, Any]]
+    ) -> "Comparison":
+        """A comparison from its entry in figure.yaml, and from source.yaml `{source/name: entry}`.
+
+        >>> law = {"metric": "small", "columns": ["x [1]"], "reason": "a law"}
+        >>> Comparison.of("a", law, {}).question.value
+        'solved right'
+        """
+        own = {key: entry[key] for key in cls.__annotations__ if key in entry}
+        own |= {"name": name, "metric": Metric(entry["metric"])}
+        own |= {key: tuple(own[key]) for key in ("columns", "range") if key in own}
+        if "reference" in entry:
+            known = references[entry["reference"]]
+            own["reference"] = (Series if "kind" in known else Fact).of(entry["reference"], known)
+        if "regime" in entry:
+            own["regime"] = Regime(entry["regime"])
+        if "allowance" in entry:
+            own["allowance"] = entry["allowance"]["x"], entry["allowance"]["y"]
+        if "landmark" in entry:
+            own["landmark"] = Landmark(**entry["landmark"])
+        if "documented" in entry:
+            cause = dict(entry["documented"])
+            verdict = Verdict(f"{cause.pop('as')} difference")
+            own["known"] = KnownDifference(verdict, entry["regression"], **cause)
+        return cls(**own)
+
+    @property
+    def is_published(self) -> bool:
+        """Whether the reference has points of nature."""
+        return isinstance(self.reference, Series) and self.reference.is_published
+
+    @property
+    def question(self) -> Question:
+        """Which question it answers.
+
+        OTHERS: points of nature, and what other codes compute and others state. PRINTED: what the
+        paper states, and a difference that is an entry of the ledger. All else, our second codes
+        and laws, asks only whether our curve is SOLVED right.
+        """
+        theirs = isinstance(self.reference, Series) and self.reference.others
+        stated = isinstance(self.reference, Fact)
+        by_paper = stated and self.reference.name.split("/")[0] == PAPER
+        if self.is_published or theirs or (stated and not by_paper):
+            return Question.OTHERS
+        return (
+            Question.PRINTED if by_paper or (self.known and self.known.entry) else Question.SOLVED
+        )
+
+    def selected_points(self, series: Series) -> Table:
+        """The points of its reference that are compared."""
+        points = series.points()
+        low, high = self._window(series)
+        x = points[series.x.name]
+        chosen = points[tables.where(points, **self.points) & (x >= low) & (x < high)]
+        if chosen.empty:
+            raise ValueError("the reference has no such points")
+        return chosen
+
+    def sigmas(self, axes: tuple[Axis, Axis], points: Table) -> tuple[Array, Array]:
+        """Uncertainties of points on both axes, with the allowance for the model."""
+        both = []
+        for axis, allowance in zip(axes, self.allowance or (0.0, 0.0), strict=True):
+            size = points[axis.sigma_name] if axis.sigma_name else axis.sigma
+            if not np.all(size):
+                raise ValueError("a point that is compared has an uncertainty of 0")
+            both.append(np.broadcast_to(np.hypot(size, allowance), len(points)))
+        return both[0], both[1]
+
+    def _window(self, series: Series) -> tuple[float, float]:
+        """Where its regime begins and ends on the axis, by the parameters of the source."""
+        if self.regime is None:
+            return -np.inf, np.inf
+        stated = series.parameters
+        groups = (stated[key] for key in ("mass_ratio", "stiffness_ratio", "restitution"))
+        limits = limits_of_regimes(*groups)
+        if series.x.column == "angle":
+            limits = np.degrees(np.arctan(stated["friction"] * limits))
+        ends = [-np.inf, *limits, np.inf]
+        place = list(Regime).index(self.regime)
+        return ends[place], ends[place + 1]
+
+
+def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:
+    """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
+
+    Every model with Coulomb friction and both compliances has these limits (Stronge 1994, Eq. 11,
+    and the incidence above which slip does not end by its Eqs 17 to 20). They are in mu v2(0), and
+    e must be above 0. For zeta^2 > beta both are zeta^2: a contact that slips at first slips
+    throughout. The limits select the points of a comparison. They are computed here, because a
+    judge must not ask the solver that it judges.
+
+    >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
+    [1.21, 5.79]
+    >>> limits_of_regimes(3.5, 5.0, 1.0).tolist()
+    [5.0, 5.0]
+    """
+    beta, zeta2, e = mass_ratio, stiffness_ratio, restitution
+    return np.array([zeta2, max(zeta2, beta + max(0.0, e * beta - zeta2 / e))])
