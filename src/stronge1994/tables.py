@@ -85,8 +85,11 @@ def join(curves: Iterable[Table]) -> Table:
 
 
 def _filled(table: Table) -> Table:
-    """A table whose empty texts are texts."""
-    return table.fillna(dict.fromkeys(table.select_dtypes(exclude="number").columns, ""))
+    """A table whose empty texts are texts, also in a column without a unit that is all empty."""
+    numeric = table.select_dtypes("number")
+    numbers = {column for column in numeric if is_quantity(column) or numeric[column].notna().any()}
+    texts = [column for column in table if column not in numbers]
+    return table.assign(**{column: table[column].astype(str).fillna("") for column in texts})
 
 
 def refuse_not_finite(table: Table) -> None:

@@ -110,11 +110,12 @@ def expanded(name: str, entry: Mapping[str, Any]) -> Iterator[tuple[str, dict[st
     `each` is a list of cases, or lists of which every combination is a case. A value of a case
     replaces its name in braces in all texts; a key of a comparison is also entered into it.
 
-    >>> each = {"model": ["lumped"], "regime": ["initial stick", "slip throughout"]}
-    >>> for comparison in expanded("{model}-{regime}", {"each": each, "curve": {"model": "{model}"}}):
+    >>> entry = {"curve": {"model": "lumped", "e": "{e}"}}
+    >>> entry["each"] = {"e": [0.5], "regime": ["initial stick", "slip throughout"]}
+    >>> for comparison in expanded("e-{e}-{regime}", entry):
     ...     print(*comparison)
-    lumped-initial-stick {'curve': {'model': 'lumped'}, 'regime': 'initial stick'}
-    lumped-slip-throughout {'curve': {'model': 'lumped'}, 'regime': 'slip throughout'}
+    e-0.5-initial-stick {'curve': {'model': 'lumped', 'e': 0.5}, 'regime': 'initial stick'}
+    e-0.5-slip-throughout {'curve': {'model': 'lumped', 'e': 0.5}, 'regime': 'slip throughout'}
     """
     common = {key: value for key, value in entry.items() if key != "each"}
     keys = definitions()["comparison"]["properties"]

@@ -1,15 +1,19 @@
 """Error against time as tables: all models in order, and the cheapest for each tolerance."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-from stronge1994 import csv_tables
-from stronge1994.csv_tables import Row
+import pandas as pd
 
-ERROR, RESTITUTION, LOSS = "max_velocity [mu v2(0)]", "restitution [1]", "loss"
+from stronge1994 import tables
+from stronge1994.tables import Table
+
+ERROR, BUILD = "max_velocity [mu v2(0)]", "build_time [s]"
 SPREAD = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 TIME = re.compile(r"time_(\d+) \[s\]")
+# Columns that tell the settings of a model.
+SETTINGS = ("steps", "circles", "tolerance", "knots")
 # Nine of ten times of two runs differ by less than this share, where the rounds of one run often
 # agree to a few hundredths: the memory of another run lies elsewhere.
 BETWEEN_RUNS = 0.1
@@ -18,12 +22,12 @@ BETWEEN_RUNS = 0.1
 TOLERANCES = (0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5)
 
 
-def ordered(rows: Sequence[Row]) -> list[Row]:
-    """Rows by restitution, elastic ones first, by loss, and by error, the largest first."""
-    return sorted(rows, key=lambda row: (-float(row[RESTITUTION]), row[LOSS], -float(row[ERROR])))
+def ordered(table: Table) -> Table:
+    """The table by restitution, elastic ones first, by loss, and by error, the largest first."""
+    return table.sort_values(["e", "loss", ERROR], ascending=[False, True, False], kind="stable")
 
 
-def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -> list[Row]:
+def which_model(table: Table, tolerances: Sequence[float] = TOLERANCES) -> Table:
     """The fastest model that meets each tolerance, for each restitution, loss and size of batch.
 
     A model meets a tolerance if its largest error of velocity does, with the error of the reference
@@ -31,73 +35,58 @@ def which_model(rows: Sequence[Row], tolerances: Sequence[float] = TOLERANCES) -
     differ from the shortest by less than times scatter, `scatter_...` or `BETWEEN_RUNS`, are as
     fast: of them the nearest is taken.
 
-    >>> row = {"restitution [1]": "1", "max_velocity [mu v2(0)]": "0.2", "build_time [s]": ""}
-    >>> row |= {"reference_error [mu v2(0)]": "1e-7", "time_10 [s]": "3e-5", "loss": ""}
-    >>> row |= {"model": "lumped", "scatter_10 [1]": "0"} | dict.fromkeys(SPREAD, "0.4")
-    >>> table = which_model([row | {"curve": "lumped, e = 1"}], [0.3, 0.1])
-    >>> [entry["model_10"] for entry in table]
+    >>> columns = {"max_velocity [mu v2(0)]": [0.2], "reference_error [mu v2(0)]": [1e-7]}
+    >>> columns |= {"time_10 [s]": [3e-5], "scatter_10 [1]": [0.0]} | dict.fromkeys(SPREAD, [0.4])
+    >>> own = tables.curve(columns, "lumped", e=1.0, loss="")
+    >>> which_model(own, [0.3, 0.1])["model_10"].tolist()
     ['lumped', 'none']
     """
-    batches = [int(match[1]) for match in map(TIME.fullmatch, rows[0]) if match]
-    cases = {(row[RESTITUTION], row[LOSS]): None for row in ordered(rows)}
-    table = []
-    for restitution, loss in cases:
-        same = [row for row in rows if (row[RESTITUTION], row[LOSS]) == (restitution, loss)]
-        wrong = [
-            f"{float(row[ERROR]):.2g}"
-            for row in same
-            if loss and row["model"].startswith("continuum.") and not row["model"].endswith(loss)
-        ]
+    batches = [int(match[1]) for match in map(TIME.fullmatch, table) if match]
+    named = table.assign(name=[_name(row) for row in table.to_dict("records")])
+    known_error = named[ERROR] + named["reference_error [mu v2(0)]"]
+    rows = []
+    for (e, loss), same in ordered(named).groupby(["e", "loss"], sort=False):
+        wrong = same[ERROR][same["model"].isin(OTHER_CONTINUUM.get(loss, []))]
         for tolerance in tolerances:
-            entry = {RESTITUTION: restitution, LOSS: loss, "tolerance [mu v2(0)]": f"{tolerance:g}"}
-            entry |= {"other_loss [mu v2(0)]": wrong[0] if wrong else ""}
-            entry |= {key: f"{float(same[0][key]):.2g}" for key in SPREAD}
+            row = {"restitution [1]": e, "loss": loss, "tolerance [mu v2(0)]": f"{tolerance:g}"}
+            row["other_loss [mu v2(0)]"] = f"{wrong.iloc[0]:.2g}" if len(wrong) else ""
+            row |= {key: f"{same[key].iloc[0]:.2g}" for key in SPREAD}
             for batch in batches:
-                entry |= _cheapest([row for row in same if _known_error(row) <= tolerance], batch)
-            table.append(entry)
-    return table
+                row |= _cheapest(same[known_error <= tolerance], batch)
+            rows.append(row)
+    return pd.DataFrame(rows)
 
 
-def whole_time(row: Mapping[str, Any], batch: int) -> float | None:
-    """Seconds for one of a batch of impacts, with its share of `build_time`; None if not measured.
-
-    >>> whole_time({"time_10 [s]": "0.5", "build_time [s]": "20"}, 10)
-    2.5
-    """
-    time = row[f"time_{batch} [s]"]
-    return float(time) + float(row["build_time [s]"] or 0) / batch if time else None
+# The continuum of another loss than that of the reference.
+OTHER_CONTINUUM = {"viscous": ["continuum.plastic"], "plastic": ["continuum.viscous"]}
 
 
-def _known_error(row: Row) -> float:
-    return float(row[ERROR]) + float(row["reference_error [mu v2(0)]"])
+def _name(row: dict[str, Any]) -> str:
+    """A model with its settings."""
+    settings = {key: row[key] for key in SETTINGS if row.get(key, "") not in ("", None)}
+    return tables.curve_name(
+        {"model": row["model"]} | {k: v for k, v in settings.items() if pd.notna(v)}
+    )
 
 
-def _cheapest(rows: Sequence[Row], batch: int) -> Row:
+def _cheapest(rows: Table, batch: int) -> dict[str, str]:
     """Cells for one batch."""
     keys = f"model_{batch}", f"max_velocity_{batch} [mu v2(0)]", f"whole_time_{batch} [s]"
-    timed = [(time, row) for row in rows if (time := whole_time(row, batch))]
-    if not timed:
+    alone, scatter = rows[f"time_{batch} [s]"], rows[f"scatter_{batch} [1]"]
+    # Seconds for one of a batch of impacts, with its share of `build_time`; and how far it is off.
+    time = (alone + (rows[BUILD].fillna(0.0) if BUILD in rows else 0.0) / batch).dropna()
+    if time.empty:
         return dict(zip(keys, ("none", "", ""), strict=True))
-    fastest, first = min(timed, key=lambda one: one[0])
-    as_fast = [
-        (float(row[ERROR]), time, row["curve"])
-        for time, row in timed
-        if time - fastest <= max(_scatter(first, batch), _scatter(row, batch))
-    ]
-    error, time, curve = min(as_fast)
-    name = curve.rsplit(", e = ", 1)[0]
-    return dict(zip(keys, (name, f"{error:.3g}", f"{time:.2g}"), strict=True))
-
-
-def _scatter(row: Row, batch: int) -> float:
-    """How far the time of one of a batch of impacts may be off, in seconds."""
-    measured = float(row[f"scatter_{batch} [1]"]) * float(row[f"time_{batch} [s]"])
-    return max(measured, BETWEEN_RUNS * (whole_time(row, batch) or 0.0))
+    off = (scatter * alone).clip(lower=BETWEEN_RUNS * time)
+    fastest = time.idxmin()
+    as_fast = time[time - time[fastest] <= off.clip(lower=off[fastest])].index
+    nearest = rows.loc[as_fast].assign(time=time).sort_values([ERROR, "time"]).iloc[0]
+    values = nearest["name"], f"{nearest[ERROR]:.3g}", f"{nearest['time']:.2g}"
+    return dict(zip(keys, values, strict=True))
 
 
 def write(curves: str, table: str, cheapest: str) -> None:
     """Read the `curves` of the figure and write both tables."""
-    rows = csv_tables.read_rows(curves)
-    every = [{"name": row.pop("curve"), **row} for row in ordered([dict(row) for row in rows])]
-    for path, rows_of_table in ((table, every), (cheapest, which_model(rows))):
-        csv_tables.write_table(path, rows_of_table, list(rows_of_table[0]))
+    every = tables.read(curves)
+    tables.write(table, ordered(every))
+    which_model(every).to_csv(cheapest, index=False, lineterminator="\n")
