@@ -130,14 +130,13 @@ class Comparison:
         paper states, and a difference that is an entry of the ledger. All else, our second codes
         and laws, asks only whether our curve is SOLVED right.
         """
-        theirs = isinstance(self.reference, Series) and self.reference.others
-        stated = isinstance(self.reference, Fact)
-        by_paper = stated and self.reference.name.split("/")[0] == PAPER
-        if self.is_published or theirs or (stated and not by_paper):
+        known, reference = self.known, self.reference
+        if isinstance(reference, Fact):
+            by_paper = reference.name.split("/")[0] == PAPER
+            return Question.PRINTED if by_paper else Question.OTHERS
+        if reference is not None and (reference.is_published or reference.others):
             return Question.OTHERS
-        return (
-            Question.PRINTED if by_paper or (self.known and self.known.entry) else Question.SOLVED
-        )
+        return Question.PRINTED if known and known.entry else Question.SOLVED
 
     def selected_points(self, series: Series) -> Table:
         """The points of its reference that are compared."""

@@ -48,14 +48,14 @@ def measure(comparison: Comparison, curves: Table) -> Measured:
 def _from_points(comparison: Comparison, series: Series, curves: Table) -> Measured:
     points = comparison.selected_points(series)
     residuals, columns = _distances(comparison, series, points, curves)
-    shifts = []
+    shifts: list[Array] = []
     for own, *both in _off_by_a_sigma(comparison, series, curves) if comparison.curve else ():
         up, down = (_distances(comparison, series, points, off)[0].sigmas for off in both)
         shift = (up - down) / 2
         # An error of a parameter moves all points together, unless each point has its own.
         shifts += list(np.diag(shift)) if own else [shift]
-    shifts = np.reshape(shifts, (len(shifts), len(columns)))
-    return Measured(series.x.name, residuals, columns, shifts)
+    matrix = np.reshape(shifts, (len(shifts), len(columns)))
+    return Measured(series.x.name, residuals, columns, matrix)
 
 
 def _distances(

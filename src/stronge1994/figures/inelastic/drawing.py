@@ -65,14 +65,13 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
 
 def _draw_pairs(axes: Axes, series: Scatter) -> Entries:
     """Draw the measured pairs with their numbers, and return the entries of the legend."""
-    x, y = side_by_side(np.asarray(series.x)), np.asarray(series.y)
+    moved = replace(series, x=side_by_side(series.x))
     entries = []
     for row, pair in enumerate(series.columns["pair"]):
-        sigma_x, sigma_y = (np.asarray(errors)[[row]] for errors in series.sigma)
-        one = replace(series, x=x[[row]], y=y[[row]], sigma=(sigma_x, sigma_y))
+        one = moved.at([row])
         entries.append(house_style.measured(axes, one, label=f"{row + 1}  {pair}", **POINT))
         place = {"textcoords": "offset points", "fontsize": house_style.NOTE}
-        axes.annotate(f"{row + 1}", (x[row], y[row]), (3, 2), **place)
+        axes.annotate(f"{row + 1}", (moved.x[row], moved.y[row]), (3, 2), **place)
     return entries
 
 

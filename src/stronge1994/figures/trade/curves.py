@@ -87,8 +87,8 @@ def curves(
                     **taken,
                 }
                 columns = {key: [value] for key, value in row.items()}
-                parameters = contender.settings | {"e": e, "loss": loss}
-                parts.append(tables.curve(columns, contender.model, **parameters))
+                settings: dict[str, Any] = {**contender.settings}
+                parts.append(tables.curve(columns, contender.model, **settings, e=e, loss=loss))
     return tables.join(parts)
 
 

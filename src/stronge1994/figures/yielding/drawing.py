@@ -1,7 +1,5 @@
 """Beyond the paper: spheres that yield, six models and finite elements of our own."""
 
-from dataclasses import replace
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -43,7 +41,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
         pushed.annotate(f"$e = {e:g}$", end, (3, 0), annotation_clip=False, **note)
     pushed.set(xlim=(0, 1), ylim=(0, 1.1), title="(c) pushed sideways while it yields")
     _draw_distances(by_restitution, curves, runs.columns)
-    by_restitution.axhline(runs.sigma[1], **house_style.GUIDE)
+    by_restitution.axhline(runs.sigma[1][0], **house_style.GUIDE)
     keys = [house_style.key(**STYLES[model]) for model in MODELS]
     house_style.legend_below(figure, keys[:3], [*keys[3:], measured])
     return figure
@@ -51,8 +49,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
 
 def _draw_points(axes: Axes, series: Scatter, rows: Booleans) -> house_style.Entries:
     """Draw some points of finite elements, and return their entry of the legend."""
-    own = replace(series, x=np.asarray(series.x)[rows], y=np.asarray(series.y)[rows])
-    return house_style.measured(axes, own, label="finite elements", **POINT)
+    return house_style.measured(axes, series.at(rows), label="finite elements", **POINT)
 
 
 def _draw_distances(axes: Axes, curves: Table, runs: Table) -> None:

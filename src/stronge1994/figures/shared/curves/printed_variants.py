@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.common.arrays import Array, ArrayLike, Booleans
+from planarimpact.common.arrays import ArrayLike, Booleans
 from stronge1994 import tables
 from stronge1994.names import NO_SOLUTION, PRINTED
 from stronge1994.tables import Table
@@ -14,7 +14,7 @@ SAME = 1e-9
 
 
 def printed_variants(
-    columns: dict[str, Array], printed: ArrayLike, **parameters: float
+    columns: dict[str, Any], printed: ArrayLike, **parameters: float
 ) -> list[Table]:
     """Curves of the printed equations, for one curve of the paper's model with its parameters.
 

@@ -7,6 +7,7 @@ import importlib
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from stronge1994 import tables
@@ -50,7 +51,8 @@ def references(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
 def _scatter(series: Series) -> Scatter:
     points, (x, y) = series.points(), (series.x, series.y[0])
     sigma_x, sigma_y = (
-        points[axis.sigma_name].to_numpy() if axis.sigma_name else axis.sigma for axis in (x, y)
+        np.broadcast_to(points[axis.sigma_name] if axis.sigma_name else axis.sigma, len(points))
+        for axis in (x, y)
     )
     return Scatter(
         series.name,

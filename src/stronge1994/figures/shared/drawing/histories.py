@@ -48,9 +48,9 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
             quantities.append(house_style.line(forces, curve, TIME, column, **own))
         black = dashes | {"color": house_style.BLACK}
         light = {} if index else BROAD | {"color": "0.65"}
-        label = {"label": house_style.parameters(curve)}
-        house_style.line(velocity, curve, TIME, VELOCITY, **label | black | light)
-        patterns.append(house_style.key(**label, **black))
+        label = house_style.parameters(curve)
+        house_style.line(velocity, curve, TIME, VELOCITY, label=label, **black | light)
+        patterns.append(house_style.key(label, **black))
     series = [
         entry
         for axes, column in ((forces, FRICTION), (velocity, VELOCITY))

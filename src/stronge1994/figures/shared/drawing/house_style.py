@@ -18,7 +18,7 @@ several restitutions, `of_restitution` gives their lines; where it shows one, a 
 """
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import IO, Any, TypeAlias
@@ -33,7 +33,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from planarimpact.common.arrays import ArrayLike, Booleans
+from planarimpact.common.arrays import Array, Booleans
 from stronge1994 import names, tables, words
 from stronge1994.tables import Table
 
@@ -55,12 +55,17 @@ class Scatter:
 
     name: str
     is_published: bool
-    x: ArrayLike
-    y: ArrayLike
-    sigma: tuple[ArrayLike, ArrayLike]
+    x: Array
+    y: Array
+    sigma: tuple[Array, Array]
     axes: tuple[str, str]
     columns: Table
     parameters: Mapping[str, float]
+
+    def at(self, rows: Any) -> "Scatter":
+        """Some of its points."""
+        x_error, y_error = (errors[rows] for errors in self.sigma)
+        return replace(self, x=self.x[rows], y=self.y[rows], sigma=(x_error, y_error))
 
 
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
