@@ -1,14 +1,15 @@
 """A comparison: what figure.yaml and source.yaml state of it, read once."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 from typing import Any
 
 import numpy as np
+from pydantic.dataclasses import dataclass
 
 from planarimpact.common.arrays import Array
-from stronge1994 import tables
+from stronge1994 import reference_data, tables
 from stronge1994.reference_data import Axis, Fact, Series
 from stronge1994.tables import Table
 from stronge1994.verdict_table import Question, Verdict
@@ -53,16 +54,24 @@ class Landmark:
 
 @dataclass(frozen=True)
 class KnownDifference:
-    """A difference that is documented: its verdict, its cause, and bounds that it must not leave.
+    """What is known of a documented difference, and its cause: an entry of the ledger or a note."""
 
-    The cause is an entry of the ledger or a note. `bounds` are `rms`, `max`, `chi2` or
-    `difference`, about what was found: they say nothing on what is right.
-    """
-
-    verdict: Verdict
-    bounds: Mapping[str, tuple[float, float]]
+    kind: str
     entry: str = ""
     note: str = ""
+
+    @property
+    def verdict(self) -> Verdict:
+        """Verdict of a comparison with this difference."""
+        return Verdict(f"{self.kind} difference")
+
+
+@dataclass(frozen=True)
+class Allowance:
+    """How far the model may be off by its form, in units of the axes."""
+
+    x: float = 0.0
+    y: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -71,23 +80,25 @@ class Comparison:
 
     `curve` selects curves by their columns, see `tables.select`; empty, each point of the reference
     selects its own by its labels. Of the reference are compared only the points with these labels,
-    `points`, in the `regime`. `allowance` is how far the model may be off on both axes.
+    `points`, in the `regime`. A known difference has bounds of regression, which are `rms`, `max`,
+    `chi2` or `difference` about what was found, and say nothing on what is right.
     """
 
     name: str
     metric: Metric
     reason: str
     reference: Series | Fact | None = None
-    curve: Mapping[str, Any] = field(default_factory=dict)
-    points: Mapping[str, Any] = field(default_factory=dict)
+    curve: dict[str, Any] = field(default_factory=dict)
+    points: dict[str, Any] = field(default_factory=dict)
     regime: Regime | None = None
-    allowance: tuple[float, float] | None = None
+    allowance: Allowance | None = None
     landmark: Landmark | None = None
-    columns: tuple[str, ...] = ()
-    range: tuple[float, float] = (0.0, 0.0)
+    columns: list[str] = field(default_factory=list)
+    range: tuple[float, float] | None = None
     limit: float = 1.0
     fitted: bool = False
-    known: KnownDifference | None = None
+    documented: KnownDifference | None = None
+    regression: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -99,22 +110,12 @@ class Comparison:
         >>> Comparison.of("a", law, {}).question.value
         'solved right'
         """
-        own = {key: entry[key] for key in cls.__annotations__ if key in entry}
-        own |= {"name": name, "metric": Metric(entry["metric"])}
-        own |= {key: tuple(own[key]) for key in ("columns", "range") if key in own}
+        own = {**entry, "name": name}
         if "reference" in entry:
-            known = references[entry["reference"]]
-            own["reference"] = (Series if "kind" in known else Fact).of(entry["reference"], known)
-        if "regime" in entry:
-            own["regime"] = Regime(entry["regime"])
-        if "allowance" in entry:
-            own["allowance"] = entry["allowance"]["x"], entry["allowance"]["y"]
-        if "landmark" in entry:
-            own["landmark"] = Landmark(**entry["landmark"])
+            full = entry["reference"]
+            own["reference"] = reference_data.of(full, references[full])
         if "documented" in entry:
-            cause = dict(entry["documented"])
-            verdict = Verdict(f"{cause.pop('as')} difference")
-            own["known"] = KnownDifference(verdict, entry["regression"], **cause)
+            own["documented"] = {"kind": entry["documented"]["as"], **entry["documented"]}
         return cls(**own)
 
     @property
@@ -130,7 +131,7 @@ class Comparison:
         paper states, and a difference that is an entry of the ledger. All else, our second codes
         and laws, asks only whether our curve is SOLVED right.
         """
-        known, reference = self.known, self.reference
+        known, reference = self.documented, self.reference
         if isinstance(reference, Fact):
             by_paper = reference.name.split("/")[0] == PAPER
             return Question.PRINTED if by_paper else Question.OTHERS
@@ -151,7 +152,8 @@ class Comparison:
     def sigmas(self, axes: tuple[Axis, Axis], points: Table) -> tuple[Array, Array]:
         """Uncertainties of points on both axes, with the allowance for the model."""
         both = []
-        for axis, allowance in zip(axes, self.allowance or (0.0, 0.0), strict=True):
+        allowed = self.allowance or Allowance()
+        for axis, allowance in zip(axes, (allowed.x, allowed.y), strict=True):
             size = points[axis.sigma_name] if axis.sigma_name else axis.sigma
             if not np.all(size):
                 raise ValueError("a point that is compared has an uncertainty of 0")

@@ -1,6 +1,6 @@
 """Distances of curves from what a comparison names, by its metric."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -75,7 +75,7 @@ def _distances(
         wanted = dict(zip(labels, values, strict=True))
         own = tables.select(curves, **wanted | dict(comparison.curve))
         of = tables.curve_name(wanted) or own["curve"].iloc[0] if "curve" in own else ""
-        for axis in series.y:
+        for axis in series.ordinates:
             at, x, y = part[part[axis.name].notna()], series.x.name, axis.name
             if len(at):
                 _refuse_missing(own, (x, y))
@@ -95,7 +95,7 @@ def _off_by_a_sigma(
     Curves are solved again for a parameter that all points share.
     """
     own = tables.select(curves, **comparison.curve)
-    scattered = {y.name: tables.sigma_name(y.name) for y in series.y}
+    scattered = {y.name: tables.sigma_name(y.name) for y in series.ordinates}
     scattered = {y: sigma for y, sigma in scattered.items() if sigma in own}
     if scattered:
         up, down = (
@@ -113,7 +113,7 @@ def _off_by_a_sigma(
                 yield False, up.assign(shifted=""), down.assign(shifted="")
 
 
-def _refuse_missing(curves: Table, columns: tuple[str, ...]) -> None:
+def _refuse_missing(curves: Table, columns: Iterable[str]) -> None:
     if missing := [column for column in columns if column not in curves]:
         raise ValueError(f"no such column: {', '.join(missing)}; there are {', '.join(curves)}")
 
@@ -163,6 +163,7 @@ def _small(comparison: Comparison, curves: Table) -> Measured:
 
 def _range(comparison: Comparison, curves: Table) -> Measured:
     """Columns that must lie in a range: distances from its middle, in half its width."""
+    assert comparison.range is not None  # as the schema has it
     names, (low, high) = comparison.columns, comparison.range
     first, x, values = _of_law(comparison, curves)
     most = LARGEST_RANGE_RATIO * np.abs(values).max()

@@ -12,7 +12,7 @@ import numpy as np
 
 from stronge1994 import tables
 from stronge1994.formulas import plain
-from stronge1994.judging.comparisons import Comparison, Metric
+from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.verdicts import chi_squared_of, judge
@@ -86,7 +86,7 @@ def _row(comparison: Comparison, curves: Table, significance: float) -> VerdictR
 
 def _note(comparison: Comparison, measured: Measured, verdict: Verdict) -> str:
     """The documented cause of a difference; of a new difference, where it is largest."""
-    known = comparison.known
+    known = comparison.documented
     cause = (f"{LEDGER}{known.entry}" if known.entry else known.note) if known else ""
     sigmas = np.abs(measured.residuals.sigmas)
     if not verdict.fails or len(sigmas) == 1:
@@ -99,7 +99,7 @@ def _note(comparison: Comparison, measured: Measured, verdict: Verdict) -> str:
 
 def _numbers(comparison: Comparison, measured: Measured, significance: float) -> VerdictRow:
     x, sigmas, plain = measured.residuals
-    bounds = comparison.known.bounds.items() if comparison.known else ()
+    bounds = comparison.regression.items()
     cells: VerdictRow = {
         "points": len(x),
         "unit": _unit(comparison.reference),
@@ -128,22 +128,23 @@ def _unit(reference: Series | Fact | None) -> str:
     """Unit of the distances in axis units; empty for a law, and for several axes of other units."""
     if not isinstance(reference, Series):
         return reference.unit if reference else ""
-    units = {axis.unit for axis in reference.y}
+    units = {axis.unit for axis in reference.ordinates}
     return units.pop() if len(units) == 1 else ""
 
 
 def _allowed(comparison: Comparison, significance: float) -> str:
     reference = comparison.reference
-    if comparison.metric == Metric.RANGE:
+    if comparison.range:
         return "{:g} to {:g}".format(*comparison.range)
     if not (isinstance(reference, Series) and reference.is_published):
         return f"max <= {comparison.limit:g}"
     criterion = f"p > {significance:g}"
     if comparison.allowance is None:
         return criterion
+    allowed = comparison.allowance
     sizes = (
         f"{axis.column} {size:g} {axis.unit}"
-        for axis, size in zip((reference.x, *reference.y), comparison.allowance, strict=True)
+        for axis, size in ((reference.x, allowed.x), (reference.ordinates[0], allowed.y))
     )
     return f"{criterion}; the model may be off by {', '.join(sizes)}".replace("_", " ")
 

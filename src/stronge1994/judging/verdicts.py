@@ -52,10 +52,12 @@ def _outcome(comparison: Comparison, measured: Measured, significance: float) ->
     # The difference of a landmark is its value minus the stated one.
     difference = -float(measured.residuals.plain[0])
     numbers = {"rms": rms, "max": largest, "difference": difference}
-    good, known = largest <= comparison.limit, comparison.known
+    good, known = largest <= comparison.limit, comparison.documented
     if chi2 := chi_squared_of(comparison, measured):
         good, numbers["chi2"] = chi2.p > significance, chi2.value
     if known is None:
         return Verdict.AGREES if good else Verdict.DIVERGES
-    unchanged = all(low <= numbers[key] <= high for key, (low, high) in known.bounds.items())
+    unchanged = all(
+        low <= numbers[key] <= high for key, (low, high) in comparison.regression.items()
+    )
     return known.verdict if unchanged and not good else Verdict.DIVERGES

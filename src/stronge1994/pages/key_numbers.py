@@ -47,8 +47,8 @@ def of_run(
     numbers = (
         _counts(verdicts, ledger)
         | _elastic(read(curves["fig5"]))
-        | _pairs(read(curves["inelastic"]), Series.of("pairs", series["pairs"]).points())
-        | _yielding(read(curves["yielding"]), Series.of("runs", series["runs"]).points())
+        | _pairs(read(curves["inelastic"]), Series(**series["pairs"]).points())
+        | _yielding(read(curves["yielding"]), Series(**series["runs"]).points())
         | _rubber(read(curves["rubber_sphere"]))
         | _nature(measures)
     )

@@ -13,7 +13,15 @@ from typing import Any, TypeAlias
 
 from planarimpact.common import checks
 from stronge1994.reference_data import strict_yaml
-from stronge1994.reference_data.series import Axis, Fact, Series, SourceError, named_axes, text_of
+from stronge1994.reference_data.series import (
+    Axis,
+    Fact,
+    Series,
+    SourceError,
+    named_axes,
+    of,
+    text_of,
+)
 
 __all__ = [
     "Axis",
@@ -23,6 +31,7 @@ __all__ = [
     "load",
     "load_all",
     "load_yaml",
+    "of",
     "refuse_invalid",
     "text_of",
 ]
@@ -69,7 +78,7 @@ def load(folder: Path, schema: Schema) -> Source:
         series["path"] = None
         if series["kind"] != "awaited":
             series["path"] = str(folder / f"{name}.csv")
-            count = len(Series.of(name, series).points())
+            count = len(Series(**series).points())
             if count != series.get("points"):
                 where = f"{path}: series.{name}.points = {series.get('points')}"
                 raise SourceError(f"{where}: {series['path']} has {count} points")

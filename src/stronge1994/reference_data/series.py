@@ -3,12 +3,13 @@
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from pydantic.dataclasses import dataclass
 
 from planarimpact.common import csv_text
 from stronge1994.tables import Table
@@ -36,7 +37,6 @@ class Axis:
     unit: str
     sigma: float | str
     range: tuple[float, float]
-    symbol: str = ""
 
     @property
     def name(self) -> str:
@@ -66,11 +66,6 @@ class Fact:
     less_than: float | None = None
     greater_than: float | None = None
 
-    @classmethod
-    def of(cls, name: str, entry: Mapping[str, Any]) -> "Fact":
-        """A fact from its entry in source.yaml; its name is `source/fact`."""
-        return cls(name, **{key: entry[key] for key in cls.__annotations__ if key in entry})
-
 
 @dataclass(frozen=True)
 class Series:
@@ -81,27 +76,22 @@ class Series:
     estimated, None if they are known. `parameters` are those of the source, by name.
     """
 
-    name: str
     kind: str
-    path: str | None
     x: Axis
-    y: tuple[Axis, ...]
+    y: Axis | tuple[Axis, ...]
+    path: str | None = None
+    name: str = ""  # source/series
     given: tuple[Axis, ...] = ()
     labels: tuple[str, ...] = ()
     others: bool = False
     sigma_values: int | None = None
     figure: str = ""
-    parameters: Mapping[str, float] = field(default_factory=dict)
+    parameters: dict[str, float] = field(default_factory=dict)
 
-    @classmethod
-    def of(cls, name: str, entry: Mapping[str, Any]) -> "Series":
-        """A series from its entry in source.yaml with its `path`; its name is `source/series`."""
-        own = {key: entry[key] for key in cls.__annotations__ if key in entry}
-        several = isinstance(entry["y"], list)
-        own |= {"x": _axis(entry["x"]), "labels": tuple(entry.get("labels", ()))}
-        own["y"] = tuple(map(_axis, entry["y"] if several else [entry["y"]]))
-        own["given"] = tuple(map(_axis, entry.get("given", ())))
-        return cls(**own | {"name": name})
+    @property
+    def ordinates(self) -> tuple[Axis, ...]:
+        """The y axes."""
+        return self.y if isinstance(self.y, tuple) else (self.y,)
 
     @property
     def is_published(self) -> bool:
@@ -115,13 +105,13 @@ class Series:
         `SourceError` names file, line, column and value.
         """
         path = str(self.path)
-        axes = {axis.name: axis for axis in (self.x, *self.y, *self.given)}
+        axes = {axis.name: axis for axis in (self.x, *self.ordinates, *self.given)}
         for axis in list(axes.values()):
             if axis.sigma_name:
                 low, high = axis.range
                 axes[axis.sigma_name] = Axis(axis.sigma_name, "", 0.0, (0.0, high - low))
         lines, cells = _cells(path, [*self.labels, *axes])
-        may_be_empty = {axis.name for axis in self.y} if len(self.y) > 1 else set()
+        may_be_empty = {axis.name for axis in self.y} if isinstance(self.y, tuple) else set()
         columns: dict[str, Any] = {label: _label(cells[label]) for label in self.labels}
         for column, axis in axes.items():
             columns[column] = [
@@ -133,8 +123,9 @@ class Series:
         return pd.DataFrame(columns)
 
 
-def _axis(entry: Mapping[str, Any]) -> Axis:
-    return Axis(**{**entry, "range": tuple(entry["range"])})
+def of(name: str, entry: Mapping[str, Any]) -> Series | Fact:
+    """A series or a fact `source/name` from its entry in source.yaml; a series has a `kind`."""
+    return (Series if "kind" in entry else Fact)(**{**entry, "name": name})
 
 
 def named_axes(entry: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:

@@ -109,7 +109,7 @@ def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str
     named = comparisons(config, figure).values() if stated.get("nodes") else ()
     exact = [reference(inventory, c["reference"]) for c in named if c["metric"] == "vertices"]
     return {
-        entry["path"]: Series.of("", entry).x.name
+        entry["path"]: Series(**entry).x.name
         for entry in exact
         if entry["path"] and "event" not in entry.get("labels", [])
     }

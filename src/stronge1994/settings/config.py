@@ -157,8 +157,8 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
         if label not in known.get("labels", []):
             raise ConfigError(f"{where}.points.{label}: no label of {comparison['reference']}")
     for key, size in comparison.get("allowance", {}).items():
-        series = Series.of(comparison["reference"], known)
-        for axis in [series.x] if key == "x" else series.y:
+        series = Series(**known)
+        for axis in [series.x] if key == "x" else series.ordinates:
             low, high = axis.range
             if size > LARGEST_ALLOWANCE * (high - low):
                 raise ConfigError(

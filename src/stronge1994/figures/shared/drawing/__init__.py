@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.figures.shared.drawing.house_style import Points, Scatter
-from stronge1994.reference_data import Fact, Series
+from stronge1994.reference_data import Series, of
 
 
 def draw(
@@ -43,13 +43,13 @@ def draw(
 def references(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
     """Series and facts as a drawing gets them, from their entries in source.yaml."""
     return {
-        name: _scatter(Series.of(name, entry)) if "kind" in entry else Fact.of(name, entry)
+        name: _scatter(known) if isinstance(known := of(name, entry), Series) else known
         for name, entry in overlays.items()
     }
 
 
 def _scatter(series: Series) -> Scatter:
-    points, (x, y) = series.points(), (series.x, series.y[0])
+    points, (x, y) = series.points(), (series.x, series.ordinates[0])
     sigma_x, sigma_y = (
         np.broadcast_to(points[axis.sigma_name] if axis.sigma_name else axis.sigma, len(points))
         for axis in (x, y)
