@@ -71,8 +71,8 @@ for target, names in [("paper", PAPER), *((name, [name]) for name in JUDGED)]:
 
 
 onsuccess:
-    print(last_words(stopped=False))
+    print(summary(stopped=False))
 
 
 onerror:
-    print(last_words(stopped=True))
+    print(summary(stopped=True))

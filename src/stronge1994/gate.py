@@ -54,7 +54,7 @@ def faults(
     ]
 
 
-def last_words(
+def summary(
     verdicts: Sequence[str],
     comparisons: Collection[str],
     entries: Collection[str],

@@ -14,7 +14,7 @@ import pytest
 from markupsafe import escape
 
 from planarimpact import continuum, lumped, noncollinear
-from stronge1994 import csv_tables
+from stronge1994 import tables
 from stronge1994.ledger import checking, contact, finding, outcome
 from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
@@ -40,7 +40,7 @@ def by_equations(name):
 @pytest.fixture(scope="module")
 def rows(first_run):
     """What a run with the right solver has found."""
-    return {row["entry"]: row for row in csv_tables.read_rows(first_run[0] / "results/ledger.csv")}
+    return {row["entry"]: row for row in tables.read_rows(first_run[0] / "results/ledger.csv")}
 
 
 @pytest.mark.parametrize(
@@ -135,7 +135,7 @@ def test_the_second_verdict_never_changes_the_first(rows, measured):
 @pytest.fixture(scope="module")
 def measured(first_run):
     """What the measures in nature found in a run."""
-    rows = csv_tables.read_rows(first_run[0] / "results/in_nature.csv")
+    rows = tables.read_rows(first_run[0] / "results/in_nature.csv")
     return {row["measure"]: {m: float(row[m]) for m in finding.MODELS} for row in rows}
 
 

@@ -11,7 +11,7 @@ import time
 
 import pytest
 
-from stronge1994 import csv_tables
+from stronge1994 import tables
 from stronge1994.settings import figures
 from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
 from tests.workflow.project import LEFT, PARTS, TIMEOUT, config, copy_of
@@ -36,13 +36,13 @@ def test_a_good_run_passes_and_leaves_everything(first_run):
     slides = {f"{figure}_{ground}.png" for figure in SLIDES for ground in ("light", "dark")}
     assert slides == {path.name for path in (project / "figures/slides").iterdir()}
     for scene, count in (("shot_peening", 200), ("billiard_cushion", 21), ("superball", 3)):
-        assert len(csv_tables.read_rows(project / f"results/scenes/{scene}.csv")) == count
+        assert len(tables.read_rows(project / f"results/scenes/{scene}.csv")) == count
         assert f"{count} impacts" in (project / f"results/logs/scene_{scene}.log").read_text()
 
 
 def test_the_verdicts_of_a_good_run(first_run, inventory):
     """Our own second codes are never called agreement."""
-    rows = csv_tables.read_rows(first_run[0] / "results/verdicts.csv")
+    rows = tables.read_rows(first_run[0] / "results/verdicts.csv")
     found = [row["verdict"] for row in rows]
     assert not set(found) & set(FAILS) and found.count("awaited") == 3
     for row in rows:

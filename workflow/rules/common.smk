@@ -120,7 +120,7 @@ def priority(wildcards):
     return 20 - PAPER.index(name) if name in PAPER else 0
 
 
-def last_words(stopped):
+def summary(stopped):
     """What the run says at its end, by the tables that are up to date then.
 
     Snakemake's graph of jobs tells which. It is no public interface: so Snakemake is pinned.
@@ -133,7 +133,7 @@ def last_words(stopped):
     judged = {name for target in gates for name in targets[target]}
     tables = {name: f"results/verdicts/{name}.csv" for name in JUDGED if name in judged}
     tables = {name: table for name, table in tables.items() if table in done}
-    return gate.last_words(
+    return gate.summary(
         list(tables.values()),
         rows_of(tables),
         ENTRIES if "all" in gates and gate.LEDGER in done else [],
