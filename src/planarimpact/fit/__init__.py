@@ -116,20 +116,20 @@ def fit(
     ]
     _, stiffness, damping, style = min(fitted, key=lambda found: found[0])
     contact = code.styles[style]
-    told = timestep.told_for(contact, e)
+    input_restitution = timestep.input_restitution_for(contact, e)
     usual = 1 / zeta2 if code.usual_stiffness is None else code.usual_stiffness
     usual_damping = code.usual_damping * timestep.normal_damping(contact.hertzian, e)
 
-    def stepped(own: timestep.Law, spring: float, dashpot: float, told: float) -> Array:
+    def stepped(own: timestep.Law, spring: float, dashpot: float, given: float) -> Array:
         each = [
-            timestep.with_dashpots(own, far, beta, spring, dashpot, told, begins=b) for b in BEGINS
+            timestep.with_dashpots(own, far, beta, spring, dashpot, given, begins=b) for b in BEGINS
         ]
         return np.stack(each)
 
     before = stepped(contact._replace(limited=code.limited), usual, usual_damping, e)
-    after = stepped(contact, stiffness, damping, told)
+    after = stepped(contact, stiffness, damping, input_restitution)
     off = after - exact
-    numbers = law, style, stiffness, damping, told, beta, zeta2, e, loss
+    numbers = law, style, stiffness, damping, input_restitution, beta, zeta2, e, loss
     curves = x, exact[:-1], before[0, :-1], after[0, :-1]
     errors = _error(before[:, :-1] - exact[:-1], x), _error(off[:, :-1], x)
     return Fit(*numbers, *curves, *errors, float(np.abs(off[:, -1]).max()))
@@ -155,11 +155,11 @@ def _nearest(
     """Mean square of the error of a law, its stiffness and damping."""
     from scipy import optimize  # here, as it takes longer to import than this package
 
-    told = timestep.told_for(law, e)
+    input_restitution = timestep.input_restitution_for(law, e)
 
     def velocity(stiffness: Array, damping: Array, steps: int = timestep.DASHPOT_STEPS) -> Array:
         return timestep.with_dashpots(
-            law, x, beta, stiffness[..., None], damping[..., None], told, steps
+            law, x, beta, stiffness[..., None], damping[..., None], input_restitution, steps
         )
 
     def mean_square(place: Array) -> float:
