@@ -155,7 +155,7 @@ def _history(options: argparse.Namespace) -> None:
     checks.impact(x, *groups.values())
     if not loss:
         names = models.losses(family).values()
-        checks.lossless(options.restitution, names, "the model's name")
+        checks.require_loss(options.restitution, names, "a model with a loss")
     result: History | ContinuumHistory
     if family == "continuum":
         _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")

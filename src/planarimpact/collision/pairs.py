@@ -79,8 +79,7 @@ class Pair:
     >>> Pair(steel, friction=0.1, restitution=0.8)
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.8: allowed are numbers equal to 1, unless loss says \
-what takes the energy: viscous, plastic
+    planarimpact.InputError: restitution = 0.8: below 1 it needs a loss: choose viscous, plastic
     """
 
     friction: Array
@@ -219,7 +218,7 @@ def _refuse_loss(arrays: dict[str, Array], codes: Array) -> None:
     restitution = arrays["restitution"]
     missing = (restitution < 1) & (codes < 0)
     if missing.any():
-        checks.lossless(np.where(missing, restitution, 1.0), LOSSES)
+        checks.require_loss(np.where(missing, restitution, 1.0), LOSSES)
     for name, loss in RESTITUTION_FROM.items():
         if loss and (~np.isnan(arrays[name]) & (codes >= 0) & (codes != LOSSES.index(loss))).any():
             (other,) = set(LOSSES) - {loss}

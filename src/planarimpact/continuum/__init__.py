@@ -301,7 +301,7 @@ def history(
 def _kind_of_motion(restitution: ArrayLike, loss: str | None) -> type[NormalMotion] | None:
     """How spheres with this loss move; refuse impacts that lose too much, or do not say how."""
     if loss is None:
-        checks.lossless(restitution, LOSSES)
+        checks.require_loss(restitution, LOSSES)
         return None
     found = inelastic.MOTIONS[checks.loss(loss, tuple(inelastic.MOTIONS))]
     allowed = f"numbers from {LEAST_RESTITUTION} to 1, with a loss"

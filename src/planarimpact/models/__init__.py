@@ -98,9 +98,8 @@ def rebound(
     >>> rebound("lumped", 2.0, restitution=0.8)
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.8: allowed are numbers equal to 1, unless the model's \
-name says what takes the energy: lumped.hysteretic (the paper's), lumped.unloading-stiffness, \
-lumped.viscous
+    planarimpact.InputError: restitution = 0.8: below 1 it needs a model with a loss: choose \
+lumped.hysteretic (the paper's), lumped.unloading-stiffness, lumped.viscous
     """
     chosen = get(model)
     refuse_unknown(chosen, settings)
@@ -288,7 +287,7 @@ def _elastic(
     """Solve with the loss left out, for e = 1 alone; a refusal names the models with a loss."""
     groups = incidence, mass_ratio, stiffness_ratio, restitution
     checks.impact(*groups)
-    checks.lossless(restitution, losses(name).values(), "the model's name")
+    checks.require_loss(restitution, losses(name).values(), "a model with a loss")
     return solve(*groups, **settings)
 
 
@@ -457,7 +456,7 @@ def reference(restitution: float, loss: str | None = None) -> str:
     ('continuum', 'continuum.viscous', 'continuum.plastic')
     """
     if loss is None:
-        checks.lossless(restitution, continuum.LOSSES)
+        checks.require_loss(restitution, continuum.LOSSES)
         return "continuum"
     checks.loss(loss, continuum.LOSSES)
     return "continuum" if np.all(checks.restitution(restitution) == 1) else f"continuum.{loss}"

@@ -268,9 +268,8 @@ def numbers(
         for position in np.flatnonzero(missing).tolist():
             problems.setdefault(
                 position,
-                f"restitution = {values['restitution'][position]:g}: allowed are numbers equal to "
-                "1, unless a column loss or the argument loss (--loss) says what takes the energy: "
-                f"{', '.join(LOSSES)}",
+                f"restitution = {values['restitution'][position]:g}: below 1 it needs a loss, "
+                f"from a column loss or the argument loss (--loss): choose {', '.join(LOSSES)}",
             )
     return values, problems
 

@@ -149,7 +149,7 @@ table of spheres
         shapes = f"groups {groups[0].shape}, loss {codes.shape}"
         raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
     if (codes < 0).any():
-        checks.lossless(np.where(codes < 0, e, 1.0), LOSSES)
+        checks.require_loss(np.where(codes < 0, e, 1.0), LOSSES)
     plastic = (codes == 1).reshape(-1)
     _refuse_uncovered(beta, zeta2, e)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
