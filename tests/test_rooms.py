@@ -82,7 +82,7 @@ SIDE_DOORS = {
     "scene.files",
     "collision.mechanics",  # these three solve scenes
     "collision.model_form",
-    "collision.rungs",
+    "collision.methods",
     "collision.presets",
     "spheres.table",  # which export writes in other languages, and which has one impact in floats
 }

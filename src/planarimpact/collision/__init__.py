@@ -2,7 +2,7 @@
 
 `collide` takes vectors and returns vectors. A `Pair` says what the materials do: friction,
 stiffness, and what takes the energy. `scene` solves tables of impacts by the same functions, which
-also decide which model answers (`rungs`): a formula where it is exact, the table of spheres where
+also decide which model answers (`methods`): a formula where it is exact, the table of spheres where
 it covers the impact, or the continuum, solved. `mechanics` has the vectors, `pairs`
 what materials do, `one_impact` one impact, `model_form` what the other loss would change.
 
@@ -30,12 +30,12 @@ from planarimpact.collision.mechanics import (
     problems,
     problems_of_normals,
 )
+from planarimpact.collision.methods import TOLERANCE as TOLERANCE
+from planarimpact.collision.methods import Answers, answers
 from planarimpact.collision.model_form import model_forms
 from planarimpact.collision.pairs import RESTITUTION_FROM as RESTITUTION_FROM
 from planarimpact.collision.pairs import Pair
 from planarimpact.collision.presets import Preset, presets
-from planarimpact.collision.rungs import TOLERANCE as TOLERANCE
-from planarimpact.collision.rungs import Answers, answers
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.common.checks import InputError
@@ -282,5 +282,5 @@ def _whole(approach: Integers, count: int, shape: tuple[int, ...], values: Any, 
 
 
 def _form(whole: Callable[..., Array], met: Impacts, place: Integers, velocity: Array) -> Array:
-    """Model form of impacts, by rung and velocity at separation."""
+    """Model form of impacts, by method and velocity at separation."""
     return whole(model_forms(met, place, velocity), np.nan)
