@@ -184,7 +184,7 @@ def collide(
 def _collide_arrays(
     pair: Pair, body: Body, other: Body, values: Sequence[ArrayLike], tolerance: float
 ) -> Collision:
-    """As `collide`, for any number of impacts."""
+    """State after any number of impacts, from arrays."""
     names = "normal", "velocity", "spin", "other_velocity", "other_spin"
     vectors = [_vectors(name, value) for name, value in zip(names, values, strict=True)]
     fields = [np.asarray(value, dtype=float) for value in (*body, *other)]
