@@ -261,7 +261,7 @@ def _errors(groups: dict[str, float], loss: str | None) -> dict[str, ArrayLike]:
     """Errors of every model against the continuum, and where a measurement can show them."""
     checks.impact(0.0, *groups.values())
     reference = models.reference(groups["restitution"], loss)
-    loss = loss or continuum.LOSSES[0]
+    loss = loss or continuum.VISCOUS  # at e = 1 both losses have the same continuum
     limit = continuum.slip_throughout_limit(**groups, loss=loss)
     x = np.linspace(0.0, float(limit), INCIDENCES)
     # A tenth of the default tolerance, so that the continuum itself has an error, too.

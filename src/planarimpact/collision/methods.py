@@ -128,7 +128,7 @@ def _add_continuum(
         result.unsolved.update({int(rows[i]): message for i, message in messages.items()})
         rows = rows[with_answer]
     else:  # at e = 1 the table has the same answer for both losses
-        loss = method.loss or continuum.LOSSES[0]
+        loss = method.loss or continuum.VISCOUS
         rebound = spheres.rebound(x, *groups, loss=loss, forces=peaks)
     result.velocity[rows] = rebound.velocity * impacts.unit[rows]
     result.change[rows] = result.velocity[rows] - impacts.v1[rows]

@@ -9,7 +9,7 @@ from planarimpact.bodies import Material
 from planarimpact.common import checks
 from planarimpact.common.arrays import LARGEST, SMALLEST, Array, ArrayLike, Booleans
 from planarimpact.common.checks import InputError
-from planarimpact.normal_impact import LOSSES
+from planarimpact.normal_impact import LOSSES, PLASTIC, VISCOUS
 
 # What says how much energy is lost, and the loss if that says it too: restitution itself, or a
 # property of the materials that gives it at the speed of each impact.
@@ -122,7 +122,7 @@ class Pair:
                 "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
                 "the materials"
             )
-        plastic = (codes == LOSSES.index("plastic")) | yields
+        plastic = (codes == LOSSES.index(PLASTIC)) | yields
         # Copies: what the caller does with its arrays later does not change the pair.
         _fill(self, *(np.array(arrays[name]) for name in _FIELDS), plastic)
 
@@ -153,7 +153,7 @@ class Pair:
         numbers = {name: float(getattr(self, name)) for name in _FIELDS}
         del numbers["effective_modulus"]
         shown = [f"{k} = {v:.4g}" for k, v in numbers.items() if not np.isnan(v)]
-        loss = [] if numbers["restitution"] == 1 else [LOSSES[int(self.plastic)]]
+        loss = [] if numbers["restitution"] == 1 else [PLASTIC if self.plastic else VISCOUS]
         return f"<Pair: {', '.join(shown + loss)}>"
 
 

@@ -21,6 +21,7 @@ from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.refinement import Unsolved as Unsolved
 from planarimpact.normal_impact import LOSSES as LOSSES
+from planarimpact.normal_impact import VISCOUS as VISCOUS
 from planarimpact.normal_impact import hertz
 
 # Below this restitution most contacts need more steps than are allowed.

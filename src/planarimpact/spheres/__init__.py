@@ -13,6 +13,7 @@ from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.common.results import Rebound, Regime
 from planarimpact.normal_impact import LOSSES as LOSSES
+from planarimpact.normal_impact import PLASTIC
 from planarimpact.spheres import table
 
 # By panel of the table, and by loss: the largest difference from the continuum, of velocity
@@ -150,7 +151,7 @@ table of spheres
         raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
     if (codes < 0).any():
         checks.require_loss(np.where(codes < 0, e, 1.0), LOSSES)
-    plastic = (codes == 1).reshape(-1)
+    plastic = (codes == LOSSES.index(PLASTIC)).reshape(-1)
     _refuse_uncovered(beta, zeta2, e)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
     velocity, peak, work = np.empty((3, x.size))
