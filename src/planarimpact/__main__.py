@@ -492,7 +492,7 @@ def _add_model(parser: argparse.ArgumentParser, begin: str | tuple[str, ...]) ->
         "--model",
         choices=[name for name in models.MODELS if name.startswith(begin)],
         default="lumped",
-        help="below e = 1 one whose name says what takes the energy [%(default)s]",
+        help="below e = 1 one with a loss in its name [%(default)s]",
     )
     _add_groups(parser)
 

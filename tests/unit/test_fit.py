@@ -317,9 +317,8 @@ def test_the_nearest_is_the_nearest():
     one = found("lammps-hooke", "steel")
     law = LAWS["lammps-hooke", "linear_history"]
 
-    def rms(stiffness, damping):
-        groups = 3.5, stiffness, damping, one.input_restitution
-        velocity = timestep.with_dashpots(law, one.incidence, *groups)
+    def rms(*numbers):
+        velocity = timestep.with_dashpots(law, one.incidence, 3.5, *numbers, one.input_restitution)
         return float(np.sqrt(np.mean((velocity - one.continuum) ** 2)))
 
     best = rms(one.stiffness, one.damping)

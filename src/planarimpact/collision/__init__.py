@@ -42,7 +42,6 @@ from planarimpact.common.checks import InputError
 from planarimpact.common.results import Regime
 from planarimpact.continuum import Unsolved
 from planarimpact.normal_impact import LOSSES as LOSSES
-from planarimpact.normal_impact import PLASTIC, VISCOUS
 
 __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
 
@@ -90,7 +89,7 @@ class Collision:
     def loss(self) -> NDArray[np.str_]:
         """What took the energy: viscous or plastic, or none where e = 1 or without an impact."""
         lossy = self.restitution < 1
-        return np.where(lossy, np.where(self.plastic, PLASTIC, VISCOUS), "none")
+        return np.where(lossy, np.where(self.plastic, "plastic", "viscous"), "none")
 
     @cached_property
     def model_form(self) -> Array:

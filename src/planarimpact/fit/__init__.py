@@ -5,9 +5,9 @@ finds the tangential spring and dashpot with which such a law comes nearest to t
 `planarimpact.spheres` or `planarimpact.continuum`, and says which error remains. `lines` writes
 them as the code wants to read them. The normal spring and dashpot follow from restitution.
 
-A fit holds for one restitution, so for one speed where restitution depends on it, for one pair of
-materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of an
-impact costs.
+A fit is valid for one restitution, so for one speed where restitution depends on it, for one pair
+of materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of
+an impact costs.
 
 `models.timestep` steps through a contact, `codes` knows the codes, `overlaps` what larger overlaps
 cost.
@@ -120,10 +120,8 @@ def fit(
     usual = 1 / zeta2 if code.usual_stiffness is None else code.usual_stiffness
     usual_damping = code.usual_damping * timestep.normal_damping(contact.hertzian, e)
 
-    def stepped(own: timestep.Law, spring: float, dashpot: float, given: float) -> Array:
-        each = [
-            timestep.with_dashpots(own, far, beta, spring, dashpot, given, begins=b) for b in BEGINS
-        ]
+    def stepped(own: timestep.Law, k: float, c: float, given: float) -> Array:
+        each = [timestep.with_dashpots(own, far, beta, k, c, given, begins=b) for b in BEGINS]
         return np.stack(each)
 
     before = stepped(contact._replace(limited=code.limited), usual, usual_damping, e)

@@ -41,7 +41,7 @@ the range, at x = {twice:.3g}, {found.beyond:.3f}
 #     of two spheres at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
 #     of a sphere at a flat wall {wall} for x up to {up_to[1]:g}
 {jumps}{larger}#   a spin against the motion can more than double it
-# The fit holds for this restitution and this material.
+# The fit is valid for this restitution and this material.
 """
 JUMPS = """\
 #     of these {0:g}, {1:g} and {2:g} also for the smallest overlap: velocities jump where a step of
@@ -184,7 +184,7 @@ class Error(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """A law of a code beside the continuum, as `planarimpact.fit.fit` returns it.
+    """A law of a code compared with the continuum, as `planarimpact.fit.fit` returns it.
 
     Attributes
     ----------
@@ -266,7 +266,7 @@ def lines(
     Returns
     -------
     str
-        Comments that say what was fitted to what, which error it has, and what the overlap adds to
+        Comments on what was fitted to what, which error it has, and what the overlap adds to
         that, and then the lines, in SI units.
 
     Raises

@@ -8,7 +8,7 @@ Arguments and errors: a `name` is one of `MODELS`, a `model` too or its entry th
 `mass_ratio`, `stiffness_ratio` and `restitution` are those of `planarimpact.lumped.rebound`;
 `settings` are those of the model, and have its defaults. `InputError` says what is not allowed.
 
-A name says what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
+A name contains what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
 "lumped" and "continuum" alone are elastic. A law of impulses takes any loss. `register` adds a
 model of your own.
 """
@@ -39,7 +39,7 @@ class Model(NamedTuple):
     Attributes
     ----------
     name : str
-        Module; and function or loss, where a module holds several.
+        Module; and function or loss, where a module has several.
     rebound : callable
         Its solver.
     settings : dict
@@ -446,7 +446,7 @@ MODELS = {
 def reference(restitution: float, loss: str | None = None) -> str:
     """Name of the model that others are measured against: a continuum.
 
-    It is elastic for e = 1. Below, `loss` says which one, "viscous" or "plastic", and `InputError`
+    It is elastic for e = 1. Below, `loss` names which one, "viscous" or "plastic", and `InputError`
     that it is missing or another word. If the loss is not known, the error is up to the distance
     between the two lossy ones. Arguments and errors: `planarimpact.models`.
 

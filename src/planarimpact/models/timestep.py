@@ -51,7 +51,7 @@ law                 factor  gain              order  distance
 `MINDLIN_RESCALED`  1.0076  4.3; 1.01         1      0.31
 ==================  ======  ================  =====  ========
 
-The overlap is taken to vanish beside the radius: no normal turns, no lever arm becomes shorter.
+The overlap is taken to be much smaller than the radius: no normal turns, no lever arm shortens.
 
 Units: m2 and |v2(0)|, times mu in tangential direction; the largest approach of a contact that
 loses nothing. So the normal spring has the force d where it is linear, and 1.25 d^(3/2) where it is
@@ -177,8 +177,7 @@ def with_dashpots(
     The tangential stiffness comes as a share of the normal one, in a Hertz contact at every
     approach; the tangential damping as the coefficient of its dashpot. `input_restitution` comes
     from `input_restitution_for`. `steps` is their number in a contact that loses nothing, `begins`
-    the part of the first step that is over when the bodies touch, from 0 to below 1. Arguments are
-    not checked.
+    the part of the first step that is over when the bodies touch, below 1. Nothing is checked.
 
     Examples
     --------
@@ -234,7 +233,7 @@ def restitution(law: Law, input_restitution: float, steps: int = DASHPOT_STEPS) 
 def input_restitution_for(law: Law, restitution: float) -> float:
     """Restitution that a code gets as input, so that its contact has this one.
 
-    A contact that cannot pull keeps more of its energy than the coefficient says.
+    A contact that cannot pull keeps more of its energy than the coefficient gives.
 
     Examples
     --------

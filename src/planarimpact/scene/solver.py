@@ -134,8 +134,7 @@ class Solver:
         for name in names.keys() & {"loss", *RESTITUTION_FROM} - {"restitution"}:
             if self._loss is not None:
                 raise InputError(
-                    f"loss = '{self._loss}': it does not apply, as the column '{names[name]}' says "
-                    "what takes the energy"
+                    f"loss = '{self._loss}': it does not apply, column '{names[name]}' gives it"
                 )
 
     def _refuse(
