@@ -36,7 +36,7 @@ An example runs after `import numpy as np` and `from planarimpact.lumped import 
 stands for the module on whose page it is.
 """
 
-__version__ = "0.2.0"  # before the rooms, as `export` writes it into its files
+__version__ = "0.2.0"  # before the imports, as `export` writes it into its files
 
 from planarimpact import (
     bodies,
@@ -64,7 +64,7 @@ from planarimpact.common.results import (
 )
 from planarimpact.continuum import ContinuumHistory
 
-# Rooms first, in the order of the words above.
+# Modules first, in the order of the text above.
 __all__ = [
     "lumped",
     "rigid",

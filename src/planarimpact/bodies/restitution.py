@@ -5,8 +5,8 @@ time, and e falls slowly with speed. A plastic body has a yield pressure: it is 
 yield speed, and then e falls with speed. Each function describes a contact of two spheres by its
 effective mass, modulus and radius, as `contact` returns them.
 
-Symbols beside those of `planarimpact.bodies`: v_y yield speed, and a_y the radius of contact where
-yield begins.
+Symbols in addition to those of `planarimpact.bodies`: v_y yield speed, and a_y the radius of
+contact where yield begins.
 """
 
 import numpy as np

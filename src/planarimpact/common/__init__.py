@@ -1,1 +1,1 @@
-"""What every room stands on: types, checks, results, and files written whole or not at all."""
+"""What every package uses: types, checks, results, and files written whole or not at all."""

@@ -21,7 +21,7 @@ def written(path: str | Path) -> Iterator[Path]:
     Yields
     ------
     Path
-        The same name in a new folder beside it, which is removed after an error too.
+        The same name in a new folder next to it, which is removed after an error too.
 
     Raises
     ------

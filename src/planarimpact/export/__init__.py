@@ -257,7 +257,7 @@ def _packed(values: list[Integers]) -> str:
 
 def _preset(name: str, preset: Preset, prefix: str) -> dict[str, Any]:
     """A body with its pair. A number that a pair leaves out is 0, as is its loss."""
-    words = f"{preset.about}. Numbers: {preset.source}.", f"Beware: {preset.beware}"
+    words = f"{preset.about}. Numbers: {preset.source}.", f"Caveat: {preset.caveat}"
     pair = {field: float(np.nan_to_num(getattr(preset.pair, field))) for field in PAIR}
     loss: str | int = 0
     if pair["restitution"]:

@@ -2,11 +2,11 @@
 
 A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
-on it with Coulomb friction. `losses` says what each loss of energy means. `stick_slip` holds the
+on it with Coulomb friction. `losses` defines each loss of energy. `stick_slip` contains the
 phases, `slip_onset` where slip starts, `normal` the normal motion, `extremes` what makes groups of
 any size possible.
 
-The keyword `loss` says what takes the normal energy where e < 1. At e = 1 all are the same model.
+The keyword `loss` names what takes the normal energy where e < 1. At e = 1 all are the same model.
 
 - "hysteretic": the paper's element, of which only the normal direction loses energy.
 - "unloading-stiffness": as the paper's, but with the elastic normal stiffness in the ratio. The
@@ -91,8 +91,8 @@ def rebound(
     places: the limit of slip throughout (see `slip_throughout_limit`) and the direction of the last
     slip, which at small e is the incident one.
 
-    With viscous loss the errors are at most 1e-9: of the velocity beside max(1, x, beta), of the
-    peak beside 1, of the dissipation beside x^2/(2 beta) or, if that is smaller, (1 + e) x.
+    With viscous loss the errors are at most 1e-9: of the velocity relative to max(1, x, beta),
+    of the peak to 1, of the dissipation to x^2/(2 beta) or, if that is smaller, (1 + e) x.
 
     Examples
     --------

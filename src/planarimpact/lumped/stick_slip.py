@@ -211,9 +211,9 @@ def _at_compression(
         outcome.velocity[ending] = np.sqrt(beta[ends] / ratio) * ratio * largest * cosine
         outcome.peak_friction[ending] = np.where(theta[ends] < HALF_PI, friction, largest)
         outcome.dissipation[ending] += ratio * friction * friction / 2
-        # No slip follows: STICK_SLIP becomes STICK, and SLIP_STICK_SLIP becomes SLIP_STICK. By the
-        # order of the codes both are the same step.
-        outcome.regime[ending] -= np.uint8(Regime.STICK_SLIP - Regime.STICK)
+        # No slip follows.
+        sticks_first = outcome.regime[ending] == Regime.STICK_SLIP
+        outcome.regime[ending] = np.where(sticks_first, Regime.STICK, Regime.SLIP_STICK)
         which, amplitude, theta = which[goes_on], amplitude[goes_on], theta[goes_on]
     return Stick(which, np.full_like(theta, HALF_PI), theta, amplitude, np.ones_like(theta))
 

@@ -349,7 +349,7 @@ def _checked(
     )
     losses = tuple(name for name in lumped.LOSSES if name != "viscous")  # see `rebound`
     if loss is None:
-        checks.lossless(restitution, losses)
+        checks.require_loss(restitution, losses)
     else:
         checks.loss(loss, losses)
     if loss == "unloading-stiffness":

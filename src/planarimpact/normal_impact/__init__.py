@@ -29,10 +29,11 @@ class Law(NamedTuple):
     property: str
 
 
-# By what takes the energy.
+# The losses of spheres.
+VISCOUS, PLASTIC = "viscous", "plastic"
 LAWS = {
-    "viscous": Law(kelvin_voigt.largest_force, "relaxation_time"),
-    "plastic": Law(yielding.largest_force, "yield_pressure"),
+    VISCOUS: Law(kelvin_voigt.largest_force, "relaxation_time"),
+    PLASTIC: Law(yielding.largest_force, "yield_pressure"),
 }
 LOSSES = tuple(LAWS)
 # The inverses and forces of both laws hold from here. The viscous tables end at e = 0.0216.

@@ -147,14 +147,14 @@ class Slip(NamedTuple):
         return np.exp((self.start - time) / (2 * self.elements.xi))
 
     def state(self, time: Array) -> tuple[Array, Array, Array, Array]:
-        """As in `Stick`."""
+        """N, T, w and s at these times; T is N, as the contact slips."""
         tau, zeta2 = 2 * self.elements.xi, self.elements.zeta2
         force, v = self.elements.motion(time)
         spring = zeta2 * (force - tau * v) + tau * self.transient * self.decay(time)
         return force, force, self.constant + self.elements.beta * v, spring
 
     def first_piece(self) -> tuple[Array, Booleans]:
-        """As in `Stick`. T does not vanish, and where w_s falls at first it falls all along."""
+        """Infinity, as T never vanishes; False, as w_s falls all along if it falls at first."""
         return np.full_like(self.start, np.inf), np.zeros(self.start.size, bool)
 
     def slip_velocity(self, v: Array, time: Array) -> Array:

@@ -1,8 +1,8 @@
-"""The architecture: which room may enter which, and by which door.
+"""Import contracts: which package may import which others, and by which public modules.
 
-A room is a file or a folder of `src/planarimpact` or `src/stronge1994`. It may use its own
-files and the rooms in its line here. pandas, matplotlib and jinja2 may be used only where a line
-has them. A room of the tests, tests/reference_solutions, may enter none of these.
+A package is here a folder or a file of a side, `src/planarimpact` or `src/stronge1994`. It may
+import its own files and the packages in its line here; pandas, matplotlib and jinja2 only where its
+line has them. tests/reference_solutions may import none of these packages.
 """
 
 import ast
@@ -66,10 +66,10 @@ REPRODUCTION = {
 # The figures have one folder each, and in it files that solve and files that draw, or that judge
 # what is drawn.
 DRAWING = ("drawing", "draw_", "trials")
-ROOMS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
-# A room of the solver is entered by its `__init__` or by one of these. Each file of the common and
-# of the reproduction has a door of its own.
-SIDE_DOORS = {
+CONTRACTS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
+# Of a package of the solver others import its `__init__` or one of these. In `common` and in the
+# reproduction every module is public.
+PUBLIC_MODULES = {
     "continuum.inelastic",  # single steps, from which the table of spheres is made
     "continuum.annuli",  # the second method, a check of the first
     "normal_impact.hertz",
@@ -82,29 +82,29 @@ SIDE_DOORS = {
     "scene.files",
     "collision.mechanics",  # these three solve scenes
     "collision.model_form",
-    "collision.rungs",
+    "collision.methods",
     "collision.presets",
     "spheres.table",  # which export writes in other languages, and which has one impact in floats
 }
 
 
-def trespasses(package, room, source):
-    """Imports of a file of a room that the tables above do not allow."""
+def broken_contracts(side, package, source):
+    """Imports of a file of a package that the tables above do not allow."""
     for target in imported(source):
         top, *inner = target.split(".")
         name = inner[0] if inner and inner[0] in _names(top) else top
-        if (top == package and name == room) or not (top in ROOMS or _is_listed(top)):
+        if (top == side and name == package) or not (top in CONTRACTS or _is_listed(top)):
             continue
-        if name not in ROOMS[package][room].split():
-            yield f"{room} may not enter {name}"
-        if room == "figures/drawing" and inner[:1] == ["figures"] and inner[2:3] == ["curves"]:
+        if name not in CONTRACTS[side][package].split():
+            yield f"{package} may not import {name}"
+        if package == "figures/drawing" and inner[:1] == ["figures"] and inner[2:3] == ["curves"]:
             yield "a drawing never solves"
         file = SRC.joinpath(top, *inner[:2])
-        enters = len(inner) > 1 and (file.is_dir() or file.with_suffix(".py").is_file())
-        if top == "planarimpact" and name != "common" and enters:
-            door = ".".join(inner[:2])
-            if door not in SIDE_DOORS:
-                yield f"{room} may not enter {door}: it is no door"
+        is_module = len(inner) > 1 and (file.is_dir() or file.with_suffix(".py").is_file())
+        if top == "planarimpact" and name != "common" and is_module:
+            module = ".".join(inner[:2])
+            if module not in PUBLIC_MODULES:
+                yield f"{package} may not import {module}: it is no public module"
 
 
 def imported(source):
@@ -121,18 +121,18 @@ def ties(source):
     """Imports that tie a second solution to the solver, themselves or through other tests."""
     for target in imported(source):
         top = target.split(".")[0]
-        if top in ROOMS or (top in ("tests", "") and not target.startswith(f"{APART}.")):
+        if top in CONTRACTS or (top in ("tests", "") and not target.startswith(f"{APART}.")):
             yield target
 
 
-def _names(package):
-    return {room.partition("/")[0] for room in ROOMS.get(package, ())}
+def _names(side):
+    return {package.partition("/")[0] for package in CONTRACTS.get(side, ())}
 
 
-def _files(package, room):
-    """Files of a room; of the figures those that solve, or those that draw."""
-    name, _, kind = room.partition("/")
-    files = [SRC / package / f"{name}.py", *(SRC / package / name).rglob("*.py")]
+def _files(side, package):
+    """Files of a package; of the figures those that solve, or those that draw."""
+    name, _, kind = package.partition("/")
+    files = [SRC / side / f"{name}.py", *(SRC / side / name).rglob("*.py")]
     if kind:
         draws = {
             path: any(part.startswith(DRAWING) for part in path.relative_to(SRC).parts)
@@ -143,28 +143,28 @@ def _files(package, room):
 
 
 def _is_listed(name):
-    """Whether a package from outside is one that the tables give to some rooms only."""
-    return any(name in words.split() for rooms in ROOMS.values() for words in rooms.values())
+    """Whether a package from outside is one that the tables allow in some packages only."""
+    return any(name in words.split() for side in CONTRACTS.values() for words in side.values())
 
 
-@pytest.mark.parametrize("package", ROOMS)
-def test_every_room_has_its_line(package):
-    found = {path.stem for path in (SRC / package).glob("[!.]*") if path.suffix in ("", ".py")}
-    assert found - {"__pycache__", "py"} == _names(package)
+@pytest.mark.parametrize("side", CONTRACTS)
+def test_every_package_has_a_contract(side):
+    found = {path.stem for path in (SRC / side).glob("[!.]*") if path.suffix in ("", ".py")}
+    assert found - {"__pycache__", "py"} == _names(side)
 
 
-@pytest.mark.parametrize(("package", "room"), [(p, room) for p in ROOMS for room in ROOMS[p]])
-def test_rooms_enter_only_where_they_may(package, room):
+@pytest.mark.parametrize(("side", "package"), [(s, p) for s in CONTRACTS for p in CONTRACTS[s]])
+def test_packages_import_only_what_they_may(side, package):
     found = [
         f"{path}: {words}"
-        for path in _files(package, room)
-        for words in trespasses(package, room, path.read_text(encoding="utf-8"))
+        for path in _files(side, package)
+        for words in broken_contracts(side, package, path.read_text(encoding="utf-8"))
     ]
     assert not found
 
 
 @pytest.mark.parametrize(
-    ("package", "room", "source"),
+    ("side", "package", "source"),
     [
         ("planarimpact", "continuum", "from planarimpact import lumped"),
         ("planarimpact", "lumped", "def late():\n    import planarimpact.rigid"),
@@ -177,8 +177,8 @@ def test_rooms_enter_only_where_they_may(package, room):
         ("stronge1994", "judging", "import matplotlib.pyplot as plt"),
     ],
 )
-def test_a_trespass_is_seen(package, room, source):
-    assert list(trespasses(package, room, source))
+def test_a_broken_contract_is_seen(side, package, source):
+    assert list(broken_contracts(side, package, source))
 
 
 def test_second_solutions_share_nothing_with_the_solver():
