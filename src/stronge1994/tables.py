@@ -61,16 +61,17 @@ def curve(columns: Columns, model: str, variant: str = "", **parameters: Any) ->
 
 
 def curve_name(own: Mapping[str, Any]) -> str:
-    """Name of a curve for readers, by the columns that tell it from others.
+    """Name of a curve for readers, by the columns that tell it from others; lists have several.
 
     >>> curve_name({"model": "continuum", "variant": "rubber", "mu": 0.50})
     'continuum, rubber, mu = 0.5'
     """
-    parts = [
-        value if isinstance(value, str) else f"{key} = {value:g}"
-        for key, value in own.items()
-        if key not in ("shifted", "sigmas") and value != ""
-    ]
+    parts = []
+    for key, value in own.items():
+        if key not in ("shifted", "sigmas") and value != "":
+            values = value if isinstance(value, list) else [value]
+            words = " or ".join(one if isinstance(one, str) else f"{one:g}" for one in values)
+            parts.append(words if isinstance(values[0], str) else f"{key} = {words}")
     shift = [f"{own['shifted']} {own['sigmas']:+g} sigma"] if own.get("shifted") else []
     return ", ".join(parts + shift)
 
