@@ -201,10 +201,10 @@ def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law):
 
 
 def stored_overlaps():
-    """Costs in `overlap.csv`, by curve and overlap."""
+    """Costs in `overlap.csv`, by pair, law and friction, and by overlap."""
     with open(ROOT / "data/lammps/overlap.csv", newline="") as file:
         rows = list(csv.reader(file))[1:]
-    return {(curve, float(size)): [*map(float, costs)] for curve, size, *costs in rows}
+    return {(*row[:3], float(row[3])): [*map(float, row[4:])] for row in rows}
 
 
 def speed_to(size, material):
@@ -240,7 +240,7 @@ def test_an_overlap_costs_what_the_lines_say(law, pair, wall):
             assert [float(end) for _, end in said[:2]] == [*overlaps.INCIDENCES]
             most = [float(number) for number, _ in (2 * said[2:] if wall else said[:2])]
             assert np.all(cost <= np.array(most) + 1e-9), (size, mu)
-            measured = stored_overlaps().get((f"{pair}, {law}, mu = {mu:g}", size))
+            measured = stored_overlaps().get((pair, law, f"{mu:g}", size))
             assert wall or measured is None or cost == pytest.approx(measured, abs=2e-4)
         assert wall or size != 0.01 or spinning.max() > 2 * off.max()
 
@@ -306,11 +306,11 @@ def test_lammps_answers_so_again():
     with open(ROOT / "data/lammps/rebound.csv", newline="") as file:
         rows = list(csv.reader(file))[1:]
     for stored, now in zip(rows, measure().rows(**measure().settings()), strict=True):
-        assert stored[:2] == now[:2] and float(stored[2]) == pytest.approx(float(now[2]), abs=5e-4)
+        assert stored[:4] == now[:4] and float(stored[4]) == pytest.approx(float(now[4]), abs=5e-4)
     measured = measure().overlap_rows(**measure().settings())
-    for stored, (curve, *now) in zip(stored_overlaps().items(), measured, strict=True):
-        size, *costs = map(float, now)
-        assert stored[0] == (curve, size) and stored[1] == pytest.approx(costs, abs=1e-3)
+    for stored, now in zip(stored_overlaps().items(), measured, strict=True):
+        size, *costs = map(float, now[3:])
+        assert stored[0] == (*now[:3], size) and stored[1] == pytest.approx(costs, abs=1e-3)
 
 
 def test_the_nearest_is_the_nearest():

@@ -10,10 +10,10 @@ import sys
 import time
 
 import pytest
+from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
 
 from stronge1994 import tables
 from stronge1994.settings import figures
-from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS
 from tests.workflow.project import LEFT, PARTS, TIMEOUT, config, copy_of
 from tests.workflow.test_refusals import explained
 
