@@ -40,28 +40,31 @@ SOLVER = {
 REPRODUCTION = {
     "__init__": "",
     "one_thread": "",
-    "csv_tables": "common",
-    "verdict_tables": "csv_tables curve_names",
-    "curve_names": "",
+    "names": "",
+    "words": "names",
+    "tables": "common pandas",
+    "solving": "pandas tables",
+    "verdict_table": "tables",
+    "figure_table": "names tables verdict_table",
     "formulas": "",
     "goodness": "common",
-    "reference_data": "common csv_tables",
+    "reference_data": "common pandas tables",
     "printed": "common lumped",
     "explorer": "planarimpact common lumped continuum bodies collision reference_data pages",
     "figures/solving": "planarimpact common bodies rigid lumped continuum noncollinear models"
-    " fit scene pandas printed csv_tables curve_names figures settings",
-    "figures/drawing": "planarimpact common csv_tables curve_names goodness reference_data figures"
-    " verdict_tables matplotlib",
+    " fit scene pandas printed tables names figures settings",
+    "figures/drawing": "planarimpact common tables names words goodness reference_data figures"
+    " verdict_table matplotlib",
     "ledger": "common bodies rigid lumped continuum noncollinear models"
-    " printed csv_tables reference_data judging",
-    "judging": "common csv_tables curve_names formulas goodness reference_data verdict_tables",
-    "settings": "reference_data curve_names",
+    " printed tables reference_data judging",
+    "judging": "common tables names formulas goodness reference_data verdict_table",
+    "settings": "reference_data names",
     "imports": "",
     "versions": "",
     "logs": "",
-    "gate": "csv_tables verdict_tables ledger",
-    "pages": "common bodies export csv_tables reference_data figures formulas goodness judging"
-    " ledger settings gate versions curve_names verdict_tables jinja2",
+    "gate": "tables figure_table verdict_table ledger",
+    "pages": "common bodies export tables reference_data figures formulas goodness judging"
+    " ledger settings gate versions names words figure_table verdict_table jinja2",
 }
 # The figures have one folder each, and in it files that solve and files that draw, or that judge
 # what is drawn.

@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 
 from planarimpact.__main__ import main
-from stronge1994 import reference_data, tables
+from stronge1994 import figure_table, reference_data, tables
 from stronge1994.names import is_of_paper
 from stronge1994.settings import figures
-from stronge1994.verdict_tables import figure_table
 
 ROOT = Path(__file__).parents[2]
 PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md"))]

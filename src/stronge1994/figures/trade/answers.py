@@ -1,7 +1,7 @@
 """Error against time as tables: all models in order, and the cheapest for each tolerance."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -18,6 +18,8 @@ SETTINGS = ("steps", "circles", "tolerance", "knots")
 # agree to a few hundredths: the memory of another run lies elsewhere.
 BETWEEN_RUNS = 0.1
 
+# The continuum of another loss than that of the reference.
+OTHER_CONTINUUM = {"viscous": ["continuum.plastic"], "plastic": ["continuum.viscous"]}
 # In mu v2(0): from a very rough answer to one finer than any measurement.
 TOLERANCES = (0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5)
 
@@ -42,8 +44,9 @@ def which_model(table: Table, tolerances: Sequence[float] = TOLERANCES) -> Table
     ['lumped', 'none']
     """
     batches = [int(match[1]) for match in map(TIME.fullmatch, table) if match]
-    named = table.assign(name=[_name(row) for row in table.to_dict("records")])
-    known_error = named[ERROR] + named["reference_error [mu v2(0)]"]
+    names = [_name(row) for row in table.to_dict("records")]
+    known_error = table[ERROR] + table["reference_error [mu v2(0)]"]
+    named = table.assign(name=names, known_error=known_error)
     rows = []
     for (e, loss), same in ordered(named).groupby(["e", "loss"], sort=False):
         wrong = same[ERROR][same["model"].isin(OTHER_CONTINUUM.get(loss, []))]
@@ -52,35 +55,30 @@ def which_model(table: Table, tolerances: Sequence[float] = TOLERANCES) -> Table
             row["other_loss [mu v2(0)]"] = f"{wrong.iloc[0]:.2g}" if len(wrong) else ""
             row |= {key: f"{same[key].iloc[0]:.2g}" for key in SPREAD}
             for batch in batches:
-                row |= _cheapest(same[known_error <= tolerance], batch)
+                row |= _cheapest(same[same["known_error"] <= tolerance], batch)
             rows.append(row)
     return pd.DataFrame(rows)
 
 
-# The continuum of another loss than that of the reference.
-OTHER_CONTINUUM = {"viscous": ["continuum.plastic"], "plastic": ["continuum.viscous"]}
-
-
-def _name(row: dict[str, Any]) -> str:
+def _name(row: Mapping[str, Any]) -> str:
     """A model with its settings."""
-    settings = {key: row[key] for key in SETTINGS if row.get(key, "") not in ("", None)}
-    return tables.curve_name(
-        {"model": row["model"]} | {k: v for k, v in settings.items() if pd.notna(v)}
-    )
+    settings = {key: row[key] for key in SETTINGS if pd.notna(row.get(key))}
+    return tables.curve_name({"model": row["model"]} | settings)
 
 
 def _cheapest(rows: Table, batch: int) -> dict[str, str]:
     """Cells for one batch."""
     keys = f"model_{batch}", f"max_velocity_{batch} [mu v2(0)]", f"whole_time_{batch} [s]"
-    alone, scatter = rows[f"time_{batch} [s]"], rows[f"scatter_{batch} [1]"]
-    # Seconds for one of a batch of impacts, with its share of `build_time`; and how far it is off.
-    time = (alone + (rows[BUILD].fillna(0.0) if BUILD in rows else 0.0) / batch).dropna()
-    if time.empty:
+    timed = rows.dropna(subset=[f"time_{batch} [s]"])
+    if timed.empty:
         return dict(zip(keys, ("none", "", ""), strict=True))
-    off = (scatter * alone).clip(lower=BETWEEN_RUNS * time)
+    # Seconds for one of a batch of impacts, with its share of `build_time`; and how far it is off.
+    alone, build = timed[f"time_{batch} [s]"], timed[BUILD].fillna(0.0) if BUILD in timed else 0.0
+    time = alone + build / batch
+    off = (timed[f"scatter_{batch} [1]"] * alone).clip(lower=BETWEEN_RUNS * time)
     fastest = time.idxmin()
-    as_fast = time[time - time[fastest] <= off.clip(lower=off[fastest])].index
-    nearest = rows.loc[as_fast].assign(time=time).sort_values([ERROR, "time"]).iloc[0]
+    as_fast = time - time[fastest] <= off.clip(lower=off[fastest])
+    nearest = timed[as_fast].assign(time=time).sort_values([ERROR, "time"]).iloc[0]
     values = nearest["name"], f"{nearest[ERROR]:.3g}", f"{nearest['time']:.2g}"
     return dict(zip(keys, values, strict=True))
 
