@@ -137,8 +137,12 @@ def wrong_columns(curves, changes):
         return changed(fitting[0], values, {}) if fitting else values
 
     def wrong_curve(name, own):
-        columns = filter(tables.is_quantity, own)
-        return own.assign(**{column: wrong(f"{name}: {column}", own[column]) for column in columns})
+        columns = list(filter(tables.is_quantity, own))
+        new = {column: wrong(f"{name}: {column}", own[column]) for column in columns}
+        for column, sigma in ((column, tables.sigma_name(column)) for column in columns):
+            if sigma in columns:  # what the fault makes of a parameter that is off by its sigma
+                new[sigma] = wrong(f"{name}: {column}", own[column] + own[sigma]) - new[column]
+        return own.assign(**new)
 
     return pd.concat(wrong_curve(*one) for one in curves.groupby("curve", sort=False))
 
@@ -220,7 +224,8 @@ def with_wrong_curves(right, found):
     for (_, own), (_, wrong) in zip(*both, strict=True):
         numbers = own.select_dtypes("number")
         keys = [*tables.KEYS, *(key for key in numbers if not tables.is_quantity(key)), "shifted"]
-        is_continuum = own["model"].iloc[0].startswith("continuum")
+        model, variant = own[["model", "variant"]].iloc[0]
+        is_continuum = model.startswith("continuum") and variant != "pushed"
         yield own if is_continuum else wrong.assign(**{key: own[key].iloc[0] for key in keys})
 
 

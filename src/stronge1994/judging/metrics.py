@@ -1,7 +1,7 @@
 """Distances of curves from what a comparison names, by its metric."""
 
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -65,26 +65,45 @@ def _distances(
 
     A point selects by its labels, as far as the comparison does not.
     """
-    chosen = tables.select(curves, **comparison.curve) if comparison.curve else curves
+    fixed = {key: "" for key in tables.DEFAULTS if key in curves and key not in series.labels}
+    chosen = curves[tables.where(curves, **fixed | comparison.curve)]
     labels = [key for key in series.labels if key in chosen and key not in comparison.curve]
-    groups = points.groupby(labels, sort=False, dropna=False) if labels else [((), points)]
-    find = _FROM_POINTS[comparison.metric]
+    # A label such as the number of a run is no choice among curves that do not have it.
+    empty = [key for key in labels if chosen[key].isin(["", np.nan]).all()]
+    labels = [key for key in labels if key in tables.KEYS or key not in empty]
+    _refuse_missing(chosen, [axis.name for axis in (series.x, *series.ordinates)])
+    pairs = [[series.x.name, axis.name] for axis in series.ordinates]
+    of_points, of_curves = (
+        [table[pair].to_numpy(float) for pair in pairs] for table in (points, chosen)
+    )
+    sigmas = [np.transpose(comparison.sigmas((series.x, y), points)) for y in series.ordinates]
+    rows_of, find = _rows_by_labels(chosen, labels), _FROM_POINTS[comparison.metric]
     parts: list[Residuals] = []
     columns: list[str] = []
-    for values, part in groups:
+    for values, at in _rows_by_labels(points, labels).items():
         wanted = dict(zip(labels, values, strict=True))
-        own = tables.select(curves, **wanted | dict(comparison.curve))
-        of = tables.curve_name(wanted) or own["curve"].iloc[0] if "curve" in own else ""
-        for axis in series.ordinates:
-            at, x, y = part[part[axis.name].notna()], series.x.name, axis.name
-            if len(at):
-                _refuse_missing(own, (x, y))
-                places, line = ((table[x], table[y]) for table in (at, own))
-                scale = comparison.sigmas((series.x, axis), at)
-                parts.append(find(places, line, scale))
-                columns += [f"{y} of {of}" if of else y] * len(at)
+        if values not in rows_of:
+            tables.select(curves, **fixed | wanted | comparison.curve)  # says that there is none
+        of = tables.curve_name(wanted) or chosen["curve"].iloc[rows_of[values][0]]
+        for (_, y), places, lines, sigma in zip(pairs, of_points, of_curves, sigmas, strict=True):
+            line = lines[rows_of[values]]
+            line, there = line[~np.isnan(line[:, 1])], ~np.isnan(places[at, 1])
+            if there.any() and not len(line):
+                raise ValueError(f"{of} has no column {y!a}")
+            if there.any():
+                parts.append(find(places[at][there].T, line.T, tuple(sigma[at][there].T)))
+                columns += [f"{y} of {of}"] * int(there.sum())
     joined = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
     return Residuals(*joined), columns
+
+
+def _rows_by_labels(table: Table, labels: list[str]) -> dict[tuple[Any, ...], list[int]]:
+    """Places of the rows with the same labels; all rows if there are no labels."""
+    keys = table[labels].astype(object).fillna("")
+    found: dict[tuple[Any, ...], list[int]] = {}
+    for row, key in enumerate(zip(*(keys[label] for label in labels), strict=True)):
+        found.setdefault(key, []).append(row)
+    return found if labels else {(): list(range(len(table)))}
 
 
 def _off_by_a_sigma(

@@ -26,7 +26,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     radius, gap = throw["radius"], throw["gap"]
     figure = house_style.new(3.8)
     axes = figure.subplots()
-    house_style.line(axes, curves, PLACE, HEIGHT, color=house_style.BLUE)
+    house_style.line(axes, curves, PLACE, HEIGHT, label="path", color=house_style.BLUE)
     left, right = (
         end(curves[PLACE]) + side * 8 * radius for end, side in ((np.min, -1), (np.max, 1))
     )
