@@ -44,7 +44,6 @@ rule notebooks:
     """The lectures alone: notebooks run from the first cell to the last, as pages."""
     input:
         "results/curves/trade.csv",
-        rules.trade_tables.output,
         expand(rules.lecture.output, notebook=NOTEBOOKS),
 
 

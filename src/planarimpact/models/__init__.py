@@ -2,7 +2,7 @@
 
 Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
 the four groups by position or name and its own settings by name. It returns a `Rebound`. The
-workflow measures what each model costs and how large its error is (`results/trade.csv`).
+workflow measures what each model costs and how large its error is (`results/curves/trade.csv`).
 
 Arguments and errors: a `name` is one of `MODELS`, a `model` too or its entry there. `incidence`,
 `mass_ratio`, `stiffness_ratio` and `restitution` are those of `planarimpact.lumped.rebound`;

@@ -176,12 +176,14 @@ def write(
     """
     verdicts = verdict_table.gather(given.verdicts)
     tables.write_rows(made.verdicts, verdicts, verdict_table.COLUMNS)
-    others = (given.ledger, given.in_nature, given.which_model)
-    ledger, measures, answers = map(tables.read_rows, others)
+    ledger, measures = map(tables.read_rows, (given.ledger, given.in_nature))
     curves = {Path(path).stem: path for path in given.curves}
     numbers = key_numbers.of_run(verdicts, ledger, measures, curves, stated)
     key_numbers.write(made.numbers, numbers)
-    copied = [made.verdicts, given.trade, given.which_model, *given.curves, *given.residuals]
+    trade = tables.read(curves["trade"])
+    answers = which_model.answers(trade)
+    answers.to_csv(made.which_model, index=False, lineterminator="\n")
+    copied = [made.verdicts, made.which_model, *given.curves, *given.residuals]
     copy_tables(made.tables, copied)
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
     residuals = {Path(path).stem: tables.read_rows(path) for path in given.residuals}
@@ -198,7 +200,7 @@ def write(
         "captions": {
             name: (folder / f"{name}.rst").read_text("utf-8").strip() for name in SECTIONS
         },
-        "cases": which_model.cases(answers),
+        "cases": which_model.cases(answers, trade),
         "n": numbers,
         "significance": config["significance"],
         "run": run,
