@@ -147,7 +147,7 @@ def rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
 
 
 def overlap_rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
-    """Pair, law, friction, overlap, and how far LAMMPS is off the fit, with the lines of the fit."""
+    """Pair, law, friction, overlap, and how far LAMMPS, with the lines of a fit, is from it."""
     measured = []
     for pair, laws in curves.fitted(pairs, incidence_max).items():
         material = bodies.Material(YOUNG_MODULUS, float(pairs[pair]["poisson_ratio"]))
@@ -177,7 +177,7 @@ if __name__ == "__main__":
     header = ["pair", "model", "variant", "incidence [mu v2(0)]", "velocity [mu v2(0)]"]
     impacts = pd.DataFrame(rows(**settings()), columns=header)
     impacts.to_csv(HERE / "rebound.csv", index=False, lineterminator="\n")
-    header = ["pair", "model", "mu", "overlap [radius]", "cost_sticking [mu v2(0)]"]
-    header += ["cost_sliding [mu v2(0)]"]
+    ends = ["cost_sticking [mu v2(0)]", "cost_sliding [mu v2(0)]"]
+    header = ["pair", "model", "mu", "overlap [radius]", *ends]
     costs = pd.DataFrame(overlap_rows(**settings()), columns=header)
     costs.to_csv(HERE / "overlap.csv", index=False, lineterminator="\n")

@@ -8,7 +8,7 @@ import sys
 from mpmath import mp
 
 from tests.reference_solutions import exact_tables, table_files
-from tests.reference_solutions.exact_tables import ANGLE, BETA, INCIDENCE, VELOCITY, ZETA2
+from tests.reference_solutions.exact_tables import BETA, INCIDENCE, VELOCITY, ZETA2
 from tests.reference_solutions.table_files import Table, table
 
 
@@ -62,7 +62,7 @@ def _fig7():
     At the border x = 2 beta - zeta^2 friction is mu cos(theta) at its largest, mu = tan(theta)/x.
     """
     border = 2 * mp.mpf(BETA) - mp.mpf(ZETA2)
-    header = ["model", "variant", "mu", ANGLE, "peak_force [m2 Omega S]"]
+    header = [*exact_tables.CURVE, *exact_tables.FIG7_COLUMNS]
     angles = [*exact_tables.FIG7_ANGLES, 90.0]
     lines = [("normal force", mp.cos, mp.one), ("slip throughout", mp.sin, border)]
     turned = [(variant, angle, *line) for variant, *line in lines for angle in angles]
@@ -89,9 +89,7 @@ def _fig9():
         angles = {float(k) for k in range(5, 90, 5)}
         angles |= set(exact_tables.threshold_angles(mu, (1 + e) * BETA))
         places += [(mu, e, angle) for angle in sorted(angles)]
-    return table(
-        ["model", "mu", "e", ANGLE, "friction_dissipation [m2 S^2/2]"], _halted_work, places
-    )
+    return table(["model", *exact_tables.FIG9_COLUMNS], _halted_work, places)
 
 
 def _halted_work(mu, e, angle):

@@ -39,6 +39,11 @@ INCIDENCE = "incidence [mu v2(0)]"
 ANGLE = "angle [deg]"
 LUMPED_FORCES = ["normal_force [m2 Omega v2(0)]", "friction_force [mu m2 Omega v2(0)]"]
 HERTZ_FORCES = ["normal_force [F2max]", "friction_force [mu F2max]"]
+FIG7_COLUMNS = ["mu", ANGLE, "peak_force [m2 Omega S]"]
+FIG9_COLUMNS = ["mu", "e", ANGLE, "friction_dissipation [m2 S^2/2]"]
+# Columns that name a curve; the lumped model's, and its answers where the printed one has none.
+CURVE = ["model", "variant"]
+SOLVED, UNSOLVED = ["lumped", None], ["printed", "no solution"]
 
 solve = functools.lru_cache(maxsize=None)(high_precision.rebound)
 
@@ -71,11 +76,6 @@ def neighbours(x):
     return {x, math.nextafter(x, 0), math.nextafter(x, math.inf)}
 
 
-# Model and variant: the model's own curve, and its answers where the printed equations have none.
-CURVE = ["model", "variant"]
-SOLVED, UNSOLVED = ["lumped", None], ["printed", "no solution"]
-
-
 # Histories -----------------------------------------------------------------------------------
 
 
@@ -90,8 +90,7 @@ def _contact(x):
             events.append(functools.partial(list, cells))
         for time in _between(answer.events):
             instants.append(functools.partial(_instant, x, e, time))
-    header = ["time [t_c]", *LUMPED_FORCES, VELOCITY]
-    labels = ["model", "e"]
+    labels, header = ["model", "e"], ["time [t_c]", *LUMPED_FORCES, VELOCITY]
     return Table([*labels, "event", *header], events), Table([*labels, *header], instants)
 
 
@@ -166,8 +165,8 @@ def _fig5():
     places = []
     for variant, zeta2 in ((None, ZETA2), ("rubber", RUBBER)):
         beside = map(neighbours, (zeta2, BETA, limit(BETA, zeta2, 1.0)))
-        curve = ["lumped", variant]
-        places += [(curve, x, zeta2, not variant) for x in sorted(grid.union(*beside))]
+        xs = sorted(grid.union(*beside))
+        places += [(["lumped", variant], x, zeta2, not variant) for x in xs]
     unsolved = (5.85, 6.0, 6.25, 6.5, 6.75, 6.95)
     places += [(UNSOLVED, x, ZETA2, False) for x in unsolved]
     return table([*CURVE, INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"], _sphere, places)
@@ -269,7 +268,7 @@ def _fig7():
         unsolved = inside_angles(mu, *BEYOND_PRINTED)
         places += [(SOLVED, mu, angle) for angle in fig7_angles(mu)]
         places += [(UNSOLVED, mu, angle) for angle in unsolved]
-    return table([*CURVE, "mu", ANGLE, "peak_force [m2 Omega S]"], _peak_force, places)
+    return table([*CURVE, *FIG7_COLUMNS], _peak_force, places)
 
 
 def _at_angle(mu, angle, e=1.0):
@@ -352,8 +351,7 @@ def _fig9():
         angles = {float(k) for k in range(5, 90, 5)} | set(threshold_angles(mu, ZETA2, BETA, top))
         places += [(SOLVED, mu, e, angle, True) for angle in sorted(angles)]
         places += [(UNSOLVED, mu, e, angle, False) for angle in unsolved]
-    columns = ["friction_dissipation [m2 S^2/2]", "friction_work [m2 S^2/2]"]
-    return table([*CURVE, "mu", "e", ANGLE, *columns], _dissipation, places)
+    return table([*CURVE, *FIG9_COLUMNS, "friction_work [m2 S^2/2]"], _dissipation, places)
 
 
 def _dissipation(curve, mu, e, angle, work):

@@ -15,6 +15,8 @@ from scipy.optimize import minimize_scalar
 from tests.reference_solutions import inelastic_contact
 from tests.reference_solutions.exact_tables import (
     ANGLE,
+    CURVE,
+    FIG9_COLUMNS,
     INCIDENCE,
     RUBBER,
     SHOT,
@@ -39,10 +41,9 @@ NU = [0.2, 0.5]
 CONTACT_E, CONTACT_NU = 0.6, 0.3
 INCIDENCES = [0.5 * i for i in range(1, 17)]
 # The impacts that beta_0 of a pair is fitted to: up to where, and whether evenly over the angle.
-REACHES = ["to 45 deg", "to 60 deg", "to 0.5 (1 + e) m2/m1", "to 1.5 (1 + e) m2/m1"]
-WHOLE = "to (1 + e) m2/m1"
-SPREADS = ["", *REACHES]
-SPREADS += [f"{reach}, by angle" for reach in [WHOLE, *REACHES]]
+SPREADS = ["to (1 + e) m2/m1", "to 45 deg", "to 60 deg"]
+SPREADS += ["to 0.5 (1 + e) m2/m1", "to 1.5 (1 + e) m2/m1"]
+SPREADS += [f"{reach}, by angle" for reach in SPREADS]
 # Impacts of a fit, and how many of them are solved; the others lie on chords.
 IMPACTS, SOLVED = 3000, 121
 STEPS, SPRINGS = 1600, 400
@@ -85,38 +86,29 @@ def tables():
     """Every table by its name."""
     angles = [(mu, angle) for mu, angles in FIG9_ANGLES.items() for angle in angles]
     rebound = ["model", "e", INCIDENCE, VELOCITY]
-    turned_round = "tangential_restitution [1]"
+    fitted = ["pair", "model", INCIDENCE, VELOCITY]
+    turned = ["restitution [1]", "tangential_restitution [1]"]
     return {
         "rebound": table(rebound, _at_incidence, product(MODELS, INCIDENCES)),
         "rebound_grid": table([*rebound, *GRID_OUTPUTS], _on_grid, product(CONTINUA, GRID)),
-        "fitted_laws": table(
-            ["pair", "model", *rebound[2:]], _fitted, product(FITTED, FITTED_INCIDENCES)
-        ),
+        "fitted_laws": table(fitted, _fitted, product(FITTED, FITTED_INCIDENCES)),
         "superball": table(PATH, _bounce, [(row,) for row in range(BOUNCES + 2)]),
         "tangential_restitution": table(
-            ["model", "nu", "restitution [1]", turned_round],
-            _at_restitution,
-            product(MODELS, NU, E),
+            ["model", "nu", *turned], _at_restitution, product(MODELS, NU, E)
         ),
         "pairs": table(
-            ["model", "variant", "spread", "pair", "restitution [1]", turned_round],
-            _of_pair,
-            product(MODELS, _pairs(), SPREADS),
+            [*CURVE, "spread", "pair", *turned], _of_pair, product(MODELS, _pairs(), SPREADS)
         ),
-        "rubber_sphere": table(
-            ["model", "variant", "e", INCIDENCE, turned_round], _of_rubber, _rubber_rows()
-        ),
+        "rubber_sphere": table([*CURVE, "e", INCIDENCE, turned[1]], _of_rubber, _rubber_rows()),
         "rubber_rms": table(
-            ["model", "variant", "incidence_limit [mu v2(0)]", *RUBBER_RMS],
+            [*CURVE, "incidence_limit [mu v2(0)]", *RUBBER_RMS],
             _rubber_rms,
             product([*MODELS, ELASTIC], RUBBER_LIMITS),
         ),
-        "fig5_experiment": table(
-            ["model", "variant", ANGLE, *SHOT_HEADER], _shot, product(CONTINUA, ANGLES)
-        ),
+        "fig5_experiment": table([*CURVE, ANGLE, *SHOT_HEADER], _shot, product(CONTINUA, ANGLES)),
         "fig6_rebound": table(rebound, _fig6, product(CONTINUA, FIG6_INCIDENCES)),
         "fig9_dissipation": table(
-            ["model", "mu", "e", ANGLE, "friction_dissipation [m2 S^2/2]"],
+            ["model", *FIG9_COLUMNS],
             _fig9,
             [(model, *place) for model in CONTINUA for place in angles],
         ),
@@ -270,15 +262,8 @@ def _at_restitution(model, nu, e):
 def _of_pair(model, pair, spread):
     row = _pairs()[pair]
     e = float(row["restitution [1]"])
-    words = f"{row['friction [1]']}: {spread}" if spread else ""
-    return [
-        model,
-        "pairs",
-        spread or WHOLE,
-        pair,
-        e,
-        round(slope(model, _ratio(pair), e, words), 5),
-    ]
+    found = slope(model, _ratio(pair), e, f"{row['friction [1]']}: {spread}")
+    return [model, "pairs", spread, pair, e, round(found, 5)]
 
 
 def _rubber_rows():

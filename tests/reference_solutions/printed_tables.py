@@ -13,14 +13,7 @@ import sys
 from mpmath import mp
 
 from tests.reference_solutions import exact_tables, table_files
-from tests.reference_solutions.exact_tables import (
-    ANGLE,
-    BETA,
-    INCIDENCE,
-    VELOCITY,
-    ZETA2,
-    inside_angles,
-)
+from tests.reference_solutions.exact_tables import BETA, INCIDENCE, VELOCITY, ZETA2, inside_angles
 from tests.reference_solutions.table_files import table
 
 # Offset from the start of stick at which |F1| < mu F2 surely, in units of 1/Omega: the two are
@@ -55,7 +48,7 @@ def _fig7():
         for mu in exact_tables.FRICTIONS
         for angle in inside_angles(mu, 3.6, 4.0, 4.4, 4.8, 5.2, 5.5, 5.7)
     ]
-    return table(["model", "mu", ANGLE, "peak_force [m2 Omega S]"], _peak_force, places)
+    return table(["model", *exact_tables.FIG7_COLUMNS], _peak_force, places)
 
 
 def _peak_force(mu, angle):
@@ -77,9 +70,7 @@ PRINTED_FIG9 = {
 
 def _fig9():
     places = [(*pair, angle) for pair, angles in PRINTED_FIG9.items() for angle in angles]
-    return table(
-        ["model", "mu", "e", ANGLE, "friction_dissipation [m2 S^2/2]"], _dissipation, places
-    )
+    return table(["model", *exact_tables.FIG9_COLUMNS], _dissipation, places)
 
 
 def _dissipation(mu, e, angle):

@@ -40,21 +40,19 @@ FORCES = ["normal_force [m2 Omega v2(0)]", "friction_force [m2 Omega v2(0)]"]
 
 def tables():
     """All tables, `{name: Table}`."""
-    laws, rebound = (None, "", "Newton"), []
-    for ratio, law in product(RATIOS, laws):
-        solve = _compliant if law is None else functools.partial(_rigid, law)
+    solvers = _compliant, functools.partial(_rigid, None), functools.partial(_rigid, "Newton")
+    rebound, events, instants = [], [], []
+    for ratio, solve in product(RATIOS, solvers):
         rebound += [functools.partial(solve, ratio, tilt) for tilt in TILTS]
     columns = [*VELOCITIES, "kinetic_energy [K0]", "jams [1]", *ENERGIES]
     header = ["time [1/Omega]", *FORCES, *VELOCITIES]
-    events, instants = [], []
     for mu in (FRICTION, 0.0):
         # As many rows as `followed` has: SciPy is not asked before a row is.
         count = len(EVENT_ROWS[mu])
         events += [functools.partial(_event, mu, row) for row in range(count)]
         instants += [functools.partial(_instant, mu, time) for time in INSTANTS[mu]]
-    labels = ["model", "variant", "velocity_ratio"]
     return {
-        "rebound": Table([*labels, "tilt [deg]", *columns], rebound),
+        "rebound": Table(["model", "variant", "velocity_ratio", "tilt [deg]", *columns], rebound),
         "contact_events": Table(["variant", "mu", "event", *header], events),
         "contact_instants": Table(["variant", "mu", *header], instants),
     }
@@ -154,12 +152,12 @@ def _instant(mu, time):
 # Without compliance --------------------------------------------------------------------------
 
 
-def _rigid(law, ratio, tilt):
+def _rigid(variant, ratio, tilt):
     rod = Rod(tilt)
-    v1, v2 = rigid(ratio, rod, kinematic=law == "Newton")
+    v1, v2 = rigid(ratio, rod, kinematic=variant == "Newton")
     left = rod.energy(v1, v2) / rod.energy(ratio, -1.0)
     numbers = _rounded([v1, -v2, left, rod.jams(1)])
-    return ["rigid", law, ratio, tilt, *numbers, None, None, None, None]
+    return ["rigid", variant, ratio, tilt, *numbers, None, None, None, None]
 
 
 def rigid(v1, rod, kinematic):
