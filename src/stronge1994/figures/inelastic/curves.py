@@ -17,6 +17,7 @@ from planarimpact.common import sliding
 from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.common.results import Rebound
 from stronge1994 import tables
+from stronge1994.figures.inelastic.trials import WHOLE
 from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.figures.shared.curves.sampling import vertices
 from stronge1994.names import MODELS
@@ -43,7 +44,6 @@ class Spread(NamedTuple):
     by_angle: bool = False
 
 
-WHOLE = "to (1 + e) m2/m1"
 RANGES = {
     WHOLE: Spread(),
     "to 45 deg": Spread(angle=45.0),
