@@ -9,24 +9,16 @@ number, or one for each point.
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TypeAlias
 
 import numpy as np
 
 from planarimpact.common.arrays import Array, ArrayLike
 from stronge1994.reference_data import Fact
 
-
-class Residuals(NamedTuple):
-    """A distance for each point: positive where the reference lies above what was computed.
-
-    `x` holds the abscissae of the points, `sigmas` the distances in sigmas of the reference, and
-    `plain` the vertical distances in units of the y axis.
-    """
-
-    x: Array
-    sigmas: Array
-    plain: Array
+# Of each point the distance in sigmas of the reference, and the vertical one in units of the axis;
+# positive where the reference lies above what was computed.
+Distances: TypeAlias = tuple[Array, Array]
 
 
 def rms_and_max(distances: Array) -> tuple[float, float]:
@@ -40,11 +32,11 @@ def rms_and_max(distances: Array) -> tuple[float, float]:
 
 def curve_residuals(
     points: Sequence[ArrayLike], curve: Sequence[ArrayLike], sigma: tuple[ArrayLike, ArrayLike]
-) -> Residuals:
+) -> Distances:
     """Shortest distance of each point from the polyline of a curve, whose vertices stand in order.
 
     >>> line = ([0.0, 1.0, 2.0], [0.0, 5.0, 0.0])
-    >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0)).sigmas.tolist()
+    >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0))[0].tolist()
     [-1.0, 0.0]
     """
     (x, y), (line_x, line_y) = (
@@ -62,15 +54,15 @@ def curve_residuals(
         nearest[i] = np.hypot(*(point - start - share[:, None] * step).T).min()
     order = np.argsort(line_x, kind="stable")
     above = y - np.interp(x, line_x[order], line_y[order])
-    return Residuals(x, np.copysign(nearest, above), above)
+    return np.copysign(nearest, above), above
 
 
 def vertex_residuals(
     points: Sequence[ArrayLike], vertices: Sequence[ArrayLike], sigma: tuple[ArrayLike, ArrayLike]
-) -> Residuals:
+) -> Distances:
     """Distance of each point from the nearest vertex.
 
-    >>> vertex_residuals(([0.0], [1.0]), ([0.0, 9.0], [3.0, 1.0]), (1.0, 1.0)).sigmas.tolist()
+    >>> vertex_residuals(([0.0], [1.0]), ([0.0, 9.0], [3.0, 1.0]), (1.0, 1.0))[0].tolist()
     [-2.0]
     """
     (x, y), (vertex_x, vertex_y), scales = (
@@ -83,27 +75,22 @@ def vertex_residuals(
         distance = np.hypot(dx / scale_x[i], dy / scale_y[i])
         above[i] = dy[distance.argmin()]
         sigmas[i] = np.copysign(distance.min(), above[i])
-    return Residuals(x, sigmas, above)
+    return sigmas, above
 
 
-def fact_residuals(value: float, fact: Fact) -> Residuals:
+def fact_residuals(value: float, fact: Fact) -> Distances:
     """Distance of a landmark from a stated fact, in the fact's own tolerance.
 
     For an inequality the distance is 0 where it holds, else infinite.
 
-    >>> fact_residuals(18.0, Fact("a/b", "deg", value=20.0, tolerance=5.0)).sigmas.tolist()
-    [0.4]
-    >>> fact_residuals(0.5, Fact("a/b", "N", less_than=0.0)).sigmas.tolist()
-    [-inf]
+    >>> fact_residuals(18.0, Fact("a/b", "deg", value=20.0, tolerance=5.0))
+    (array([0.4]), array([2.]))
+    >>> fact_residuals(0.5, Fact("a/b", "N", less_than=0.0))
+    (array([-inf]), array([-0.5]))
     """
-    if fact.value is not None and fact.tolerance is not None:
-        gap = fact.value - value
-        sigmas = gap / fact.tolerance
-    elif fact.less_than is not None:
-        gap = fact.less_than - value
-        sigmas = 0.0 if gap > 0 else -math.inf
-    else:
-        assert fact.greater_than is not None  # as the schema has it
-        gap = fact.greater_than - value
-        sigmas = 0.0 if gap < 0 else math.inf
-    return Residuals(np.array([value]), np.array([sigmas]), np.array([gap]))
+    stated = (fact.value, fact.less_than, fact.greater_than)
+    gap = next(limit - value for limit in stated if limit is not None)
+    if fact.tolerance is not None:
+        return np.array([gap / fact.tolerance]), np.array([gap])
+    holds = gap > 0 if fact.less_than is not None else gap < 0
+    return np.array([0.0 if holds else math.copysign(math.inf, gap)]), np.array([gap])

@@ -9,7 +9,7 @@ from planarimpact.common.arrays import Array
 from stronge1994 import tables
 from stronge1994.judging import distances, landmarks
 from stronge1994.judging.comparisons import Comparison, Metric
-from stronge1994.judging.distances import Residuals
+from stronge1994.judging.distances import Distances
 from stronge1994.names import PRINTED
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table
@@ -22,15 +22,17 @@ LARGEST_RANGE_RATIO = 100
 
 
 class Measured(NamedTuple):
-    """How far curves are from what a comparison names.
+    """How far curves are from what a comparison names, at each of some points.
 
-    `quantity` is the column of the points' positions; `columns` names the column of each residual.
-    `shifts` has a row for each uncertain parameter: the change of all residuals if it is off by one
-    sigma.
+    `quantity` is the column of their positions `at`; `sigmas` and `plain` are `Distances`, and
+    `columns` names the column of each. `shifts` has a row for each uncertain parameter: the change
+    of all `sigmas` if it is off by one sigma.
     """
 
     quantity: str
-    residuals: Residuals
+    at: Array
+    sigmas: Array
+    plain: Array
     columns: list[str]
     shifts: Array = np.zeros((0, 0))
 
@@ -47,21 +49,18 @@ def measure(comparison: Comparison, curves: Table) -> Measured:
 
 def _from_points(comparison: Comparison, series: Series, curves: Table) -> Measured:
     points = comparison.selected_points(series)
-    residuals, columns = _distances(comparison, series, points, curves)
+    found = _distances(comparison, series, points, curves)
     shifts: list[Array] = []
     for own, *both in _off_by_a_sigma(comparison, series, curves) if comparison.curve else ():
-        up, down = (_distances(comparison, series, points, off)[0].sigmas for off in both)
+        up, down = (_distances(comparison, series, points, off).sigmas for off in both)
         shift = (up - down) / 2
         # An error of a parameter moves all points together, unless each point has its own.
         shifts += list(np.diag(shift)) if own else [shift]
-    matrix = np.reshape(shifts, (len(shifts), len(columns)))
-    return Measured(series.x.name, residuals, columns, matrix)
+    return found._replace(shifts=np.reshape(shifts, (len(shifts), len(found.at))))
 
 
-def _distances(
-    comparison: Comparison, series: Series, points: Table, curves: Table
-) -> tuple[Residuals, list[str]]:
-    """Distances of points from the curves, or their vertices, that they select; and their columns.
+def _distances(comparison: Comparison, series: Series, points: Table, curves: Table) -> Measured:
+    """Distances of points from the curves, or from their vertices, that they select.
 
     A point selects by its labels, as far as the comparison does not.
     """
@@ -78,7 +77,7 @@ def _distances(
     )
     sigmas = [np.transpose(comparison.sigmas((series.x, y), points)) for y in series.ordinates]
     rows_of, find = _rows_by_labels(chosen, labels), _FROM_POINTS[comparison.metric]
-    parts: list[Residuals] = []
+    parts: list[tuple[Array, *Distances]] = []
     columns: list[str] = []
     for values, at in _rows_by_labels(points, labels).items():
         wanted = dict(zip(labels, values, strict=True))
@@ -91,10 +90,11 @@ def _distances(
             if there.any() and not len(line):
                 raise ValueError(f"{of} has no column {y!a}")
             if there.any():
-                parts.append(find(places[at][there].T, line.T, tuple(sigma[at][there].T)))
+                some = places[at][there]
+                parts.append((some[:, 0], *find(some.T, line.T, tuple(sigma[at][there].T))))
                 columns += [f"{y} of {of}"] * int(there.sum())
-    joined = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
-    return Residuals(*joined), columns
+    at_x, in_sigmas, plain = map(np.concatenate, zip(*parts, strict=True))
+    return Measured(series.x.name, at_x, in_sigmas, plain, columns)
 
 
 def _rows_by_labels(table: Table, labels: list[str]) -> dict[tuple[Any, ...], list[int]]:
@@ -145,7 +145,7 @@ def _from_fact(comparison: Comparison, fact: Fact, curves: Table) -> Measured:
     _refuse_missing(own, (sought.x, sought.y))
     value = landmarks.find(sought.kind, own[sought.x], own[sought.y], sought.at)
     quantity = sought.y if sought.kind == "value" else sought.x
-    return Measured(quantity, distances.fact_residuals(value, fact), [quantity])
+    return Measured(quantity, np.array([value]), *distances.fact_residuals(value, fact), [quantity])
 
 
 def _rows_of_law(comparison: Comparison, curves: Table) -> Table:
@@ -177,7 +177,7 @@ def _small(comparison: Comparison, curves: Table) -> Measured:
     """A column that must be small, or two that must be equal up to `BALANCE_SIGMA`."""
     first, x, values = _of_law(comparison, curves)
     gap, scale = (values[0] - values[1], BALANCE_SIGMA) if len(values) == 2 else (values[0], 1.0)
-    return Measured(first, Residuals(x, gap / scale, gap), [comparison.columns[0]] * len(x))
+    return Measured(first, x, gap / scale, gap, [comparison.columns[0]] * len(x))
 
 
 def _range(comparison: Comparison, curves: Table) -> Measured:
@@ -192,8 +192,8 @@ def _range(comparison: Comparison, curves: Table) -> Measured:
             f"{LARGEST_RANGE_RATIO} times the largest value; a wider range tests nothing"
         )
     gap = values.ravel() - (low + high) / 2
-    residuals = Residuals(np.tile(x, len(names)), gap / ((high - low) / 2), gap)
-    return Measured(first, residuals, np.repeat(names, len(x)).tolist())
+    columns = np.repeat(names, len(x)).tolist()
+    return Measured(first, np.tile(x, len(names)), gap / ((high - low) / 2), gap, columns)
 
 
 def _contraction(comparison: Comparison, curves: Table) -> Measured:
@@ -203,7 +203,7 @@ def _contraction(comparison: Comparison, curves: Table) -> Measured:
     steps = own.groupby("curve", sort=False)[[x, y]].diff().abs().dropna()
     excess = (steps[y] - steps[x]).clip(lower=0.0).groupby(own[x]).max()
     places, largest = excess.index.to_numpy(), excess.to_numpy()
-    return Measured(x, Residuals(places, largest, largest), [y] * len(places))
+    return Measured(x, places, largest, largest, [y] * len(places))
 
 
 _FROM_POINTS = {

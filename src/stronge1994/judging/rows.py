@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
+import pandas as pd
 
 from stronge1994 import tables
 from stronge1994.formulas import plain
@@ -21,7 +22,7 @@ from stronge1994.tables import Table
 from stronge1994.verdict_table import COLUMNS, LEDGER, Verdict
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
-# The cells of a row by `COLUMNS`. `residuals` has rows of the table of residuals.
+# The cells of a row by `COLUMNS`. `residuals` has its part of the table of residuals.
 VerdictRow: TypeAlias = dict[str, Any]
 
 
@@ -37,7 +38,7 @@ def compare(
     `name` is that of a figure, or `scene_` and that of a scene. `references` has the series and
     facts of source.yaml under `source/entry`, each with the parameters of its source. Published
     points agree if p is above `significance`. Beside the cells of the table each row has
-    `residuals`, its rows of the table of residuals.
+    `residuals`, its part of the table of residuals.
     """
     curves = read(path)
     every = [Comparison.of(title, entry, references) for title, entry in comparisons.items()]
@@ -73,11 +74,8 @@ def _row(comparison: Comparison, curves: Table, significance: float) -> VerdictR
         measured = measure(comparison, curves)
         verdict = judge(comparison, measured, significance)
         cells |= _numbers(comparison, measured, significance)
-        x, sigmas, _ = (np.asarray(column).tolist() for column in measured.residuals)
-        cells["residuals"] = [
-            dict(zip(RESIDUALS, (comparison.name, measured.quantity, *point), strict=True))
-            for point in zip(x, sigmas, strict=True)
-        ]
+        own = comparison.name, measured.quantity, measured.at, measured.sigmas
+        cells["residuals"] = pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))
         note = _note(comparison, measured, verdict)
     except Exception as error:
         verdict, note = comparison.question.failed, f"{error}"
@@ -88,29 +86,28 @@ def _note(comparison: Comparison, measured: Measured, verdict: Verdict) -> str:
     """The documented cause of a difference; of a new difference, where it is largest."""
     known = comparison.documented
     cause = (f"{LEDGER}{known.entry}" if known.entry else known.note) if known else ""
-    sigmas = np.abs(measured.residuals.sigmas)
+    sigmas = np.abs(measured.sigmas)
     if not verdict.fails or len(sigmas) == 1:
         return cause
     worst = int(sigmas.argmax())
-    at = f"{measured.quantity} = {measured.residuals.x[worst]:g}"
+    at = f"{measured.quantity} = {measured.at[worst]:g}"
     place = f"largest for {measured.columns[worst]} at {at}"
     return "; ".join(part for part in (cause, place) if part)
 
 
 def _numbers(comparison: Comparison, measured: Measured, significance: float) -> VerdictRow:
-    x, sigmas, plain = measured.residuals
     bounds = comparison.regression.items()
     cells: VerdictRow = {
-        "points": len(x),
+        "points": len(measured.at),
         "unit": _unit(comparison.reference),
         "allowed": _allowed(comparison, significance),
         "regression": ", ".join(f"{low:g} <= {key} <= {high:g}" for key, (low, high) in bounds),
     }
-    for unit, distances in {"sigma": sigmas, "axis units": plain}.items():
+    for unit, distances in {"sigma": measured.sigmas, "axis units": measured.plain}.items():
         rms, largest = rms_and_max(distances)
         cells |= {f"rms [{unit}]": f"{rms:.3g}", f"max [{unit}]": f"{largest:.3g}"}
     if isinstance(comparison.reference, Fact):
-        cells |= {"found": f"{x[0]:.4g}", "stated": _stated(comparison.reference)}
+        cells |= {"found": f"{measured.at[0]:.4g}", "stated": _stated(comparison.reference)}
     if chi2 := chi_squared_of(comparison, measured):
         cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
         cells |= {"degrees of sigma": chi2.of_sigma or "", "p": f"{chi2.p:.2g}"}
@@ -152,5 +149,6 @@ def _allowed(comparison: Comparison, significance: float) -> str:
 def write(rows: Sequence[VerdictRow], verdicts: str, residuals: str) -> None:
     """Write both tables of the `rows` that `compare` gave."""
     tables.write_rows(verdicts, rows, COLUMNS)
-    points = [point for row in rows for point in row.get("residuals", [])]
-    tables.write_rows(residuals, points, RESIDUALS)
+    points = [row["residuals"] for row in rows if "residuals" in row]
+    every = pd.concat([pd.DataFrame(columns=RESIDUALS), *points])
+    every.to_csv(residuals, index=False, lineterminator="\n")

@@ -21,7 +21,7 @@ def chi_squared_of(comparison: Comparison, measured: Measured) -> ChiSquared | N
     if not (comparison.is_published and isinstance(comparison.reference, Series)):
         return None
     number = comparison.reference.sigma_values
-    return chi_squared(measured.residuals.sigmas, measured.shifts, number)
+    return chi_squared(measured.sigmas, measured.shifts, number)
 
 
 def judge(comparison: Comparison, measured: Measured, significance: float) -> Verdict:
@@ -36,8 +36,7 @@ def judge(comparison: Comparison, measured: Measured, significance: float) -> Ve
     if comparison.question == Question.SOLVED:
         return Verdict.RIGHT
     for off in (VISIBLE_SHIFT, -VISIBLE_SHIFT) if comparison.is_published else ():
-        residuals = measured.residuals._replace(sigmas=measured.residuals.sigmas + off)
-        moved = measured._replace(residuals=residuals)
+        moved = measured._replace(sigmas=measured.sigmas + off)
         if _outcome(comparison, moved, significance) != Verdict.DIVERGES:
             return Verdict.INCONCLUSIVE
     return outcome
@@ -48,9 +47,9 @@ def _outcome(comparison: Comparison, measured: Measured, significance: float) ->
 
     It diverges too if there is no difference any more, or if the difference has left its bounds.
     """
-    rms, largest = rms_and_max(measured.residuals.sigmas)
+    rms, largest = rms_and_max(measured.sigmas)
     # The difference of a landmark is its value minus the stated one.
-    difference = -float(measured.residuals.plain[0])
+    difference = -float(measured.plain[0])
     numbers = {"rms": rms, "max": largest, "difference": difference}
     good, known = largest <= comparison.limit, comparison.documented
     if chi2 := chi_squared_of(comparison, measured):
