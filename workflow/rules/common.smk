@@ -49,7 +49,8 @@ try:
         workflow.config_settings.config_args or (),
     )
     SOURCES = reference_data.load_all("data", reference_data.load_yaml("workflow/schemas/source.schema.yaml"))
-    ENTRIES = list(entries.load(LEDGER, reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")))
+    OF_LEDGER = entries.load(LEDGER, reference_data.load_yaml("workflow/schemas/ledger.schema.yaml"))
+    ENTRIES = list(OF_LEDGER)
     configuration.check_config(config, SOURCES, ENTRIES)
     FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
     JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}

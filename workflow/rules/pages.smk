@@ -41,6 +41,7 @@ rule report:
             "sources": SOURCES,
             "stated": STATED,
             "symbols": reference_data.load_yaml(LEDGER)["symbols"],
+            "impacts": {name: entry["explorer"] for name, entry in OF_LEDGER.items() if "explorer" in entry},
             "rows": rows_of(JUDGED),
             "entries": ENTRIES,
         },

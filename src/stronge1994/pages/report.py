@@ -165,14 +165,15 @@ def write(
     sources: Mapping[str, Any],
     stated: Mapping[str, Mapping[str, Any]],
     symbols: str,
+    impacts: Mapping[str, Any],
     rows: Collection[str],
     entries: Collection[str],
 ) -> None:
     """Write all pages and the tables that belong to them; files and settings are those of the rule.
 
     `captions` are those of the figures, `slides` names those that have one. `sources` holds
-    data/*/source.yaml, `stated` the series of which the note states numbers, `symbols` those of the
-    ledger; `rows` and `entries` are as in `gate.faults`.
+    data/*/source.yaml, `stated` the series of which the note states numbers, `symbols` and `impacts`
+    those of the ledger; `rows` and `entries` are as in `gate.faults`.
     """
     verdicts = verdict_table.gather(given.verdicts)
     tables.write_rows(made.verdicts, verdicts, verdict_table.COLUMNS)
@@ -210,7 +211,7 @@ def write(
         made.report: page(values, folder / "report.html"),
         made.sources: sources_page.page(sources, config, run, folder / "sources.html"),
         made.note: note.page(numbers, verdicts, pictures, folder / "note.html"),
-        made.ledger: ledger_page.page(ledger, symbols, folder / "ledger.html"),
+        made.ledger: ledger_page.page(ledger, symbols, impacts, folder / "ledger.html"),
     }
     for path, text in pages.items():
         Path(path).write_text(text, encoding="utf-8")
