@@ -172,8 +172,8 @@ def write(
     """Write all pages and the tables that belong to them; files and settings are those of the rule.
 
     `captions` are those of the figures, `slides` names those that have one. `sources` holds
-    data/*/source.yaml, `stated` the series of which the note states numbers, `symbols` and `impacts`
-    those of the ledger; `rows` and `entries` are as in `gate.faults`.
+    data/*/source.yaml, `stated` the series of which the note states numbers. `symbols` and
+    `impacts` are those of the ledger; `rows` and `entries` are as in `gate.faults`.
     """
     verdicts = verdict_table.gather(given.verdicts)
     tables.write_rows(made.verdicts, verdicts, verdict_table.COLUMNS)
