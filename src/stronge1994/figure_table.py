@@ -165,15 +165,15 @@ def _source(source: str, rows: Sequence[Row]) -> Item:
     measured = [row for row in rows if row["points"]]
     first = [row for row in measured if row["reference"] == measured[0]["reference"]]
     # An inequality that holds has no distance.
-    told = first if any(float(row["rms [sigma]"]) for row in measured) else []
+    shown = first if any(float(row["rms [sigma]"]) for row in measured) else []
     return Item(
         _names(rows),
         _worst(rows),
         source,
         f"{sum(int(row['points']) for row in measured)}" if measured else "",
-        _rms(told, "axis units") if told else "",
-        told[0]["unit"] if told else "",
-        _rms(measured, "sigma") if told else "",
+        _rms(shown, "axis units") if shown else "",
+        shown[0]["unit"] if shown else "",
+        _rms(measured, "sigma") if shown else "",
     )
 
 
