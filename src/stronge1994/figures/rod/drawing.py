@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
+from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc
@@ -42,7 +43,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     panels[0, 0].set_yticks([0.5, 1.5, 2.5], ["regime", "jams", "rigid: jams"])
     panels[-1, 0].set_ylim(bottom=0)
     values = rf"$\mu = {settings['friction']:g}$,  $e = {settings['restitution']:g}$"
-    figure.suptitle(f"slender rod,  {values}", fontsize=house_style.STYLE["axes.titlesize"])
+    figure.suptitle(f"slender rod,  {values}", fontsize=rcParams["axes.titlesize"])
     sketch, forces = over_time.subgridspec(1, 2, width_ratios=[1, 5]).subplots()
     _draw_rod(sketch, settings["contact"])
     lines = _draw_contact(forces, curves, settings["friction"])

@@ -113,37 +113,11 @@ LETTERS = {
     "kinetic_energy [K0]": "$K(t_f)/K(0)$",
 }
 
-STYLE = {
-    "axes.linewidth": 0.7,
-    "axes.labelsize": 10.5,
-    "axes.titlesize": 10.5,
-    "errorbar.capsize": 1.5,
-    "figure.constrained_layout.h_pad": 0.05,
-    "figure.constrained_layout.w_pad": 0.05,
-    "font.family": "STIXGeneral",  # a typeface of journals
-    "font.size": 10,
-    "hatch.color": "0.7",
-    "hatch.linewidth": 0.5,
-    "legend.fontsize": 9,
-    "legend.frameon": False,
-    "legend.handlelength": 2.9,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 4,
-    "mathtext.fontset": "stix",
-    "svg.fonttype": "path",  # letters as shapes: the same in every viewer, without its fonts
-    "svg.hashsalt": "planarimpact",  # the same names inside the file at every run
-    "xtick.direction": "in",
-    "xtick.labelsize": 9.5,
-    "xtick.major.pad": 5,  # the first label keeps away from that of the other axis
-    "ytick.direction": "in",
-    "ytick.labelsize": 9.5,
-}
 # These fonts come with matplotlib. Its cached list of fonts may be older than this installation and
 # lack them: then it would use another font, whose letters are too wide for their places.
 for _font in sorted(Path(matplotlib.get_data_path(), "fonts/ttf").glob("STIX*.ttf")):
     font_manager.fontManager.addfont(_font)
-matplotlib.rcdefaults()
-matplotlib.rcParams.update(STYLE)
+matplotlib.rc_file(Path(__file__).with_name("house.mplstyle"))
 
 
 def new(height: float) -> Figure:
