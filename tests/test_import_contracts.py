@@ -54,10 +54,10 @@ REPRODUCTION = {
     "figures/solving": "planarimpact common bodies rigid lumped continuum noncollinear models"
     " fit scene pandas printed tables names figures settings",
     "figures/drawing": "planarimpact common tables names words goodness reference_data figures"
-    " verdict_table matplotlib",
+    " verdict_table matplotlib pandas",
     "ledger": "common bodies rigid lumped continuum noncollinear models"
     " printed tables reference_data judging",
-    "judging": "common tables names formulas goodness reference_data verdict_table",
+    "judging": "common pandas tables names formulas goodness reference_data verdict_table",
     "settings": "reference_data names",
     "imports": "",
     "versions": "",

@@ -288,6 +288,9 @@ TRADE = {"max_velocity [mu v2(0)]": [0.4], "input_spread [mu v2(0)]": [0.5]}
 TRADE |= {"input_spread_stick [mu v2(0)]": [0.6]}
 
 
+NO_RESIDUALS = pd.DataFrame(columns=["comparison", "quantity", "at", "distance [sigma]"])
+
+
 def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
     """Comparisons failed, and an entry of the ledger holds no longer."""
     none = dict.fromkeys(outcome.COLUMNS, "") | {"verdict": "wrong"}
@@ -297,7 +300,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "verdicts": VERDICTS,
         "ledger": [none | {"entry": "eq-25", "holds": "no"}, none | {"entry": "a", "holds": "yes"}],
         "figures": {
-            name: write_report.figure(name, b"<svg/>", "Words.", [], VERDICTS, False)
+            name: write_report.figure(name, b"<svg/>", "Words.", NO_RESIDUALS, VERDICTS, False)
             for name in CONFIG["figures"]
         },
         "captions": dict.fromkeys(write_report.SECTIONS, "Words."),
@@ -324,17 +327,17 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
 
 def test_strips_show_points_by_their_verdicts():
     others = {"question": "beside others", "found": "", "curve": "lumped", "reference": "a/b"}
-    verdicts = {
-        "low": others | {"verdict": "diverges"},
-        "high": others | {"verdict": "agrees"},
-        "corner": others | {"verdict": "wrong", "question": "solved right", "curve": ""},
-    }
+    verdicts = [
+        others | {"comparison": "low", "verdict": "diverges"},
+        others | {"comparison": "high", "verdict": "agrees"},
+        others | {"comparison": "corner", "verdict": "wrong", "curve": "", "reference": "a/c"},
+    ]
     points = {"low": [-1, -3], "high": [2, 0], "corner": [7]}
-    residuals = [
-        {"comparison": name, "quantity": "x [1]", "at": f"{at}", "distance [sigma]": f"{far}"}
+    residuals = pd.DataFrame(
+        {"comparison": name, "quantity": "x [1]", "at": at, "distance [sigma]": far}
         for name, distances in points.items()
         for at, far in enumerate(distances)
-    ]
+    )
     first, second = draw_residuals.draw(draw_residuals.strips(residuals, verdicts)).axes
     drawn = {line.get_marker(): line for line in first.lines if line.get_linestyle() == "None"}
     assert {mark: line.get_ydata().tolist() for mark, line in drawn.items()} == {

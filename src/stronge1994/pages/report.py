@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import pandas as pd
 from markupsafe import Markup
 
 from stronge1994 import figure_table, gate, tables, verdict_table, versions, words
@@ -114,26 +115,26 @@ def figure(
     name: str,
     svg: bytes,
     caption: str,
-    residuals: list[Row],
+    residuals: tables.Table,
     verdicts: list[Row],
     has_slide: bool,
 ) -> TemplateValues:
     """Values of the template for one figure."""
     rows = [row for row in verdicts if row["figure"] == name]
-    strips = draw_residuals.strips(residuals, {row["comparison"]: row for row in rows})
+    strips = draw_residuals.strips(residuals, rows)
     return {
         "title": words.figure(name),
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
         "rows": rows,
-        "has_residuals": bool(residuals),
+        "has_residuals": len(residuals) > 0,
         "has_slide": has_slide,
         "strips": templates.embedded(_svg(strips)) if strips else None,
     }
 
 
-def _svg(strips: Mapping[draw_residuals.Strip, draw_residuals.Points]) -> bytes:
+def _svg(strips: list[tables.Table]) -> bytes:
     file = io.BytesIO()
     house_style.save(draw_residuals.draw(strips), file)
     return file.getvalue()
@@ -187,7 +188,7 @@ def write(
     copied = [made.verdicts, made.which_model, *given.curves, *given.residuals]
     copy_tables(made.tables, copied)
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
-    residuals = {Path(path).stem: tables.read_rows(path) for path in given.residuals}
+    residuals = {Path(path).stem: pd.read_csv(path) for path in given.residuals}
     shown = [_with_formulas(row, config) for row in verdicts]
     figures = {
         name: figure(name, picture, captions[name], residuals[name], shown, name in slides)
