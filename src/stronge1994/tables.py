@@ -117,9 +117,24 @@ def where(table: Table, **wanted: Any) -> Booleans:
         if column not in table:
             raise ValueError(f"no column {column!a}; there are {', '.join(table)}")
         if pd.api.types.is_numeric_dtype(table[column]):
-            values = [float(one) for one in values]
+            values = [_as_number(column, one) for one in values]
         kept &= table[column].isin(values).to_numpy()
     return kept
+
+
+def _as_number(column: str, value: Any) -> float:
+    try:
+        return float(value)
+    except ValueError:
+        raise ValueError(f"{column} = {value!a}: allowed are numbers") from None
+
+
+def only_curve(table: Table) -> str:
+    """The name of the only curve of a table; that it has several is an error."""
+    names = table["curve"].unique()
+    if len(names) > 1:
+        raise ValueError(f"allowed is one curve, and these are selected: {'; '.join(names)}")
+    return str(names[0])
 
 
 def select(table: Table, **wanted: Any) -> Table:

@@ -218,8 +218,17 @@ def test_a_point_selects_its_curve_by_its_labels_unless_the_comparison_does(tmp_
             points = {"variant": ""} if curve else {}
             found = measure(Comparison("a", metric, "so", series, curve, points), curves)
             assert found.sigmas.tolist() == [gap for gap in distances if gap is not None]
-    with pytest.raises(ValueError, match="no curve has variant = rubber, e = 0.5, model"):
-        measure(Comparison("a", metric, "so", series, {"model": "printed"}), curves)
+    for curve, problem in (
+        ({"model": "printed"}, "no curve has variant = rubber, e = 0.5, model"),
+        (
+            {"variant": "", "e": 0.5},
+            "allowed is one curve, and these are selected: lumped, e = 0.5; pr",
+        ),
+        ({"model": "lumped", "e": "half"}, "e = 'half': allowed are numbers"),
+    ):
+        series = Series("computed", AXIS, y, str(path), labels=["variant", "e"])
+        with pytest.raises(ValueError, match=problem):
+            measure(Comparison("a", metric, "so", series, curve), curves)
 
 
 # Comparison, verdict, and the cells from the number of points to what is allowed.

@@ -83,7 +83,7 @@ def _distances(comparison: Comparison, series: Series, points: Table, curves: Ta
         wanted = dict(zip(labels, values, strict=True))
         if values not in rows_of:
             tables.select(curves, **fixed | wanted | comparison.curve)  # says that there is none
-        of = tables.curve_name(wanted) or chosen["curve"].iloc[rows_of[values][0]]
+        of = tables.only_curve(chosen.take(rows_of[values]))
         for (_, y), places, lines, sigma in zip(pairs, of_points, of_curves, sigmas, strict=True):
             line = lines[rows_of[values]]
             line, there = line[~np.isnan(line[:, 1])], ~np.isnan(places[at, 1])
@@ -142,6 +142,7 @@ def _from_fact(comparison: Comparison, fact: Fact, curves: Table) -> Measured:
     sought = comparison.landmark
     assert sought is not None  # as the schema has it
     own = tables.select(curves, **comparison.curve)
+    tables.only_curve(own)
     _refuse_missing(own, (sought.x, sought.y))
     value = landmarks.find(sought.kind, own[sought.x], own[sought.y], sought.at)
     quantity = sought.y if sought.kind == "value" else sought.x

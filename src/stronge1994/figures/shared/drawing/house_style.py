@@ -169,11 +169,11 @@ def line(
     Where `rows` is false there is a gap. `style` may have a label other than the columns that tell
     which curve it is.
     """
+    tables.only_curve(curve)
     height = curve[y] if rows is None else curve[y].where(rows)
     axes.set(xlabel=of_column(x), ylabel=of_column(y))
-    label = {
-        "label": ", ".join(filter(None, [*curve[["model", "variant"]].iloc[0], parameters(curve)]))
-    }
+    told_apart = *curve[["model", "variant"]].iloc[0], parameters(curve)
+    label = {"label": ", ".join(filter(None, told_apart))}
     return axes.plot(curve[x].to_numpy(), height.to_numpy(), **label | style)[0]
 
 
