@@ -172,8 +172,8 @@ def line(
     tables.only_curve(curve)
     height = curve[y] if rows is None else curve[y].where(rows)
     axes.set(xlabel=of_column(x), ylabel=of_column(y))
-    told_apart = *curve[["model", "variant"]].iloc[0], parameters(curve)
-    label = {"label": ", ".join(filter(None, told_apart))}
+    which = *curve[["model", "variant"]].iloc[0], parameters(curve)
+    label = {"label": ", ".join(filter(None, which))}
     return axes.plot(curve[x].to_numpy(), height.to_numpy(), **label | style)[0]
 
 
