@@ -6,14 +6,16 @@ told; the table of all comparisons has the other models.
 """
 
 import itertools
-import math
 import textwrap
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+import numpy as np
+import pandas as pd
+
 from stronge1994.names import SCENE, is_of_paper
-from stronge1994.tables import Row
-from stronge1994.verdict_table import LEDGER, Question, Verdict, fails
+from stronge1994.tables import Row, Table
+from stronge1994.verdict_table import COLUMNS, LEDGER, Question, Verdict
 
 SCENES = "scenes"  # one row for all tables of impacts
 # The paper's model, in curves that are selected by their model.
@@ -62,127 +64,101 @@ def of_run(rows: Sequence[Row]) -> list[FigureRow]:
     >>> of_run([row])[0].solved[0].size
     '4e-13'
     """
-    names = dict.fromkeys(map(_name, rows))
-    return [_figure_row(name, [row for row in rows if _name(row) == name]) for name in names]
+    table = pd.DataFrame(dict.fromkeys(COLUMNS, "") | row for row in rows)
+    numbers = [column for column in COLUMNS if column == "points" or column[-1] == "]"]
+    table[numbers] = table[numbers].apply(pd.to_numeric)
+    verdicts = [Verdict(verdict) for verdict in table["verdict"]]
+    severity = [list(Verdict).index(verdict) for verdict in verdicts]
+    table = table.assign(severity=severity, fails=[verdict.fails for verdict in verdicts])
+    table["source"] = table["reference"].str.split("/").str[0]
+    names = table["figure"].where(~table["figure"].str.startswith(SCENE), SCENES)
+    return [_figure_row(name, own) for name, own in table.groupby(names, sort=False)]
 
 
-def _name(row: Row) -> str:
-    return SCENES if row["figure"].startswith(SCENE) else row["figure"]
-
-
-def _figure_row(name: str, rows: Sequence[Row]) -> FigureRow:
-    solved, printed, others = (
-        [row for row in rows if row["question"] == question] for question in Question
+def _figure_row(name: str, rows: Table) -> FigureRow:
+    solved, printed, others = (rows[rows["question"] == question] for question in Question)
+    shown = others[others["fails"] | others["model"].isin(MODELS_OF_PAPER)]
+    awaited = shown["verdict"] == Verdict.AWAITED
+    present, later = (
+        [_source(source, own) for source, own in part.groupby("source", sort=False)]
+        for part in (shown[~awaited], shown[awaited])
     )
-    shown = [row for row in others if fails(row) or row["model"] in MODELS_OF_PAPER]
-    awaited = [row for row in shown if row["verdict"] == Verdict.AWAITED]
-    present = [row for row in shown if row not in awaited]
-    return FigureRow(
-        name,
-        list(_solved(solved)),
-        list(_printed(printed)),
-        [_source(source, group) for source, group in _grouped(present, _source_of)],
-        [_source(source, group) for source, group in _grouped(awaited, _source_of)],
-    )
+    return FigureRow(name, list(_solved(solved)), list(_printed(printed)), present, later)
 
 
-def _grouped(rows: Iterable[Row], key: Callable[[Row], str]) -> list[tuple[str, list[Row]]]:
-    groups: dict[str, list[Row]] = {}
-    for row in rows:
-        groups.setdefault(key(row), []).append(row)
-    return list(groups.items())
+def _item(rows: Table, verdict: str = "", name: str = "", **cells: str) -> Item:
+    """An item of some comparisons, with the worst verdict unless another one is given."""
+    worst_first = rows.sort_values("severity", kind="stable")
+    own = verdict or worst_first["verdict"].iloc[0]
+    return Item(worst_first["comparison"].tolist(), own, name, **cells)
 
 
-def _source_of(row: Row) -> str:
-    return row["reference"].partition("/")[0]
-
-
-def _worst_first(rows: Iterable[Row]) -> list[Row]:
-    order = list(Verdict)
-    return sorted(rows, key=lambda row: order.index(Verdict(row["verdict"])))
-
-
-def _names(rows: Iterable[Row]) -> list[str]:
-    return [row["comparison"] for row in _worst_first(rows)]
-
-
-def _worst(rows: Iterable[Row]) -> str:
-    return _worst_first(rows)[0]["verdict"]
-
-
-def _solved(rows: Sequence[Row]) -> Iterator[Item]:
+def _solved(rows: Table) -> Iterator[Item]:
     """What is wrong, else what is right with its largest differences; and what is known to differ.
 
     The difference in sigmas is that from second codes: 1 is all that is allowed.
     """
-    wrong = [row for row in rows if fails(row)]
-    right = [row for row in rows if row["verdict"] == Verdict.RIGHT]
-    known = [row for row in rows if Verdict(row["verdict"]).differs]
-    if wrong:
-        yield Item(_names(wrong), Verdict.WRONG, points=f"{len(wrong)}")
-    elif right:
+    wrong, right = rows[rows["fails"]], rows[rows["verdict"] == Verdict.RIGHT]
+    known = rows[[Verdict(verdict).differs for verdict in rows["verdict"]]]
+    if len(wrong):
+        yield _item(wrong, Verdict.WRONG, points=f"{len(wrong)}")
+    elif len(right):
         # A table with axes of several units has no difference in the unit of the axis.
-        sizes = [float(row["max [axis units]"]) for row in right if row["unit"]]
-        sigmas = [float(row["max [sigma]"]) for row in right if row["reference"]]
-        size, share = max(sizes, default=None), max(sigmas, default=None)
-        yield Item(
-            _names(right),
-            "right",
+        size = right["max [axis units]"][right["unit"] != ""].max()
+        share = right["max [sigma]"][right["reference"] != ""].max()
+        yield _item(
+            right,
             points=f"{len(right)}",
-            size="" if size is None else f"{size:.0e}" if size else "0",
-            sigmas="" if share is None else f"{share:.1g}" if share > LEAST_SHARE else "0",
+            size="" if np.isnan(size) else f"{size:.0e}" if size else "0",
+            sigmas="" if np.isnan(share) else f"{share:.1g}" if share > LEAST_SHARE else "0",
         )
-    if known:
-        yield Item(_names(known), "known difference", points=f"{len(known)}")
+    if len(known):
+        yield _item(known, "known difference", points=f"{len(known)}")
 
 
-def _printed(rows: Sequence[Row]) -> Iterator[Item]:
+def _printed(rows: Table) -> Iterator[Item]:
     """How many statements agree; then each difference, by entry of the ledger."""
-    agree = [row for row in rows if row["verdict"] == "agrees"]
-    if agree:
-        yield Item(_names(agree), "agrees", points=f"{len(agree)}")
-    differ = [row for row in rows if row not in agree]
-    for name, group in _grouped(differ, _cause):
-        first = group[0]
+    agree = rows["verdict"] == Verdict.AGREES
+    if agree.any():
+        yield _item(rows[agree], points=f"{agree.sum()}")
+    differ = rows[~agree]
+    causes = pd.Series([_cause(row) for row in differ.to_dict("records")], differ.index, str)
+    for name, own in differ.groupby(causes, sort=False):
+        first = own.iloc[0]
         size = ""  # of a figure that could not be solved
         if first["found"]:
             size = f"{first['found']}, not {first['stated']}".removesuffix(f" {first['unit']}")
-        elif all(row["points"] for row in group):
-            size = f"rms {_rms(group, 'axis units')}"
-        yield Item(_names(group), _worst(group), name, size=size, unit=first["unit"])
+        elif own["points"].notna().all():
+            size = f"rms {_rms(own, 'axis units')}"
+        yield _item(own, name=name, size=size, unit=first["unit"])
 
 
 def _cause(row: Row) -> str:
     """Entry of the ledger or note of a known difference; of a row that fails without, its name."""
     note = row["note"].partition(";")[0]
-    if fails(row) and not note.startswith(LEDGER):
+    if row["fails"] and not note.startswith(LEDGER):
         return row["comparison"].removeprefix(f"{row['figure']}-")
     return note.removeprefix(LEDGER)
 
 
-def _source(source: str, rows: Sequence[Row]) -> Item:
+def _source(source: str, rows: Table) -> Item:
     """All comparisons with one source; the size is that of its first series."""
-    measured = [row for row in rows if row["points"]]
-    first = [row for row in measured if row["reference"] == measured[0]["reference"]]
-    # An inequality that holds has no distance.
-    shown = first if any(float(row["rms [sigma]"]) for row in measured) else []
-    return Item(
-        _names(rows),
-        _worst(rows),
-        source,
-        f"{sum(int(row['points']) for row in measured)}" if measured else "",
-        _rms(shown, "axis units") if shown else "",
-        shown[0]["unit"] if shown else "",
-        _rms(measured, "sigma") if shown else "",
+    measured = rows.dropna(subset=["points"])
+    if measured.empty:
+        return _item(rows, name=source)
+    points = f"{measured['points'].sum():.0f}"
+    if not measured["rms [sigma]"].any():  # an inequality that holds has no distance
+        return _item(rows, name=source, points=points)
+    first = measured[measured["reference"] == measured["reference"].iloc[0]]
+    size, unit = _rms(first, "axis units"), first["unit"].iloc[0]
+    return _item(
+        rows, "", source, points=points, size=size, unit=unit, sigmas=_rms(measured, "sigma")
     )
 
 
-def _rms(rows: Sequence[Row], unit: str) -> str:
+def _rms(rows: Table, unit: str) -> str:
     """Root mean square distance of all points of several rows."""
-    points = [int(row["points"]) for row in rows]
-    squares = [float(row[f"rms [{unit}]"]) ** 2 for row in rows]
-    mean = sum(n * s for n, s in zip(points, squares, strict=True)) / sum(points)
-    return f"{math.sqrt(mean):.2g}"
+    return f"{np.sqrt(np.average(rows[f'rms [{unit}]'] ** 2, weights=rows['points'])):.2g}"
 
 
 def text(table: Sequence[FigureRow]) -> str:
