@@ -77,7 +77,7 @@ def test_verdicts(known, limit):
         both = size * np.array([[-1.0, 0.5], [-3.0, 9.0]])  # in sigmas, and in units of the axis
         measured = Measured("x", np.zeros(2), *both, ["y"] * 2)
         own = documented | limit | {"regression": bounds}
-        return judge(Comparison("a", "landmark", "so", fact, **own), measured, 0.01)
+        return judge(Comparison("a", "landmark", "so", fact, **own), measured, 0.01).verdict
 
     most = limit.get("limit", 1.0)
     for size in (most, -most):
@@ -105,7 +105,8 @@ def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, pa
     def verdict_at(sigmas, reference=known, **entry):
         numbers = np.zeros(number), np.full(number, sigmas), np.zeros(number)
         measured = Measured("x", *numbers, ["y"] * number, shifts)
-        return judge(Comparison("a", "distance", "so", reference, **entry), measured, 0.01)
+        own = Comparison("a", "distance", "so", reference, **entry)
+        return judge(own, measured, 0.01).verdict
 
     for sigmas in (-1.0, -0.5, 0.0, 0.5, 1.0, 0.999 * far, -0.999 * far, 1.001 * far, -1.001 * far):
         expected = [Verdict.DIVERGES] * 2
@@ -166,7 +167,7 @@ def test_a_comparison_is_of_the_points_that_it_names(entry, chosen, axis, tmp_pa
     both = columns | {"column": axis}, columns | {"column": "row"}
     series = Series("computed", *both, str(path), labels=list(labels), parameters=groups)
     comparison = Comparison("a", "distance", "so", series, **entry)
-    assert comparison.selected_points(series)["row"].tolist() == chosen
+    assert comparison.selected_points(series)[0]["row"].tolist() == chosen
 
 
 def test_a_contraction_is_of_the_curves_that_it_names():

@@ -139,26 +139,27 @@ class Comparison:
             return Question.OTHERS
         return Question.PRINTED if known and known.entry else Question.SOLVED
 
-    def selected_points(self, series: Series) -> Table:
-        """The points of its reference that are compared."""
+    def selected_points(self, series: Series) -> tuple[Table, list[Array]]:
+        """The points of its reference that are compared, and for each y axis their sigmas.
+
+        These have a row for each point, with x and y; they have the allowance for the model.
+        """
         points = series.points()
         low, high = self._window(series)
         x = points[series.x.name]
         chosen = points[tables.where(points, **self.points) & (x >= low) & (x < high)]
         if chosen.empty:
             raise ValueError("the reference has no such points")
-        return chosen
+        along = self._sigma(series.x, chosen, "x")
+        both = [[along, self._sigma(y, chosen, "y")] for y in series.ordinates]
+        return chosen, [np.transpose(sigmas) for sigmas in both]
 
-    def sigmas(self, axes: tuple[Axis, Axis], points: Table) -> tuple[Array, Array]:
-        """Uncertainties of points on both axes, with the allowance for the model."""
-        both = []
-        allowed = self.allowance or Allowance()
-        for axis, allowance in zip(axes, (allowed.x, allowed.y), strict=True):
-            size = points[axis.sigma_name] if axis.sigma_name else axis.sigma
-            if not np.all(size):
-                raise ValueError("a point that is compared has an uncertainty of 0")
-            both.append(np.broadcast_to(np.hypot(size, allowance), len(points)))
-        return both[0], both[1]
+    def _sigma(self, axis: Axis, points: Table, which: str) -> Array:
+        size = points[axis.sigma_name] if axis.sigma_name else axis.sigma
+        if not np.all(size):
+            raise ValueError("a point that is compared has an uncertainty of 0")
+        allowed = getattr(self.allowance, which, 0.0)
+        return np.broadcast_to(np.hypot(size, allowed), len(points))
 
     def _window(self, series: Series) -> tuple[float, float]:
         """Where its regime begins and ends on the axis, by the parameters of the source."""

@@ -21,15 +21,6 @@ from stronge1994.reference_data import Fact
 Distances: TypeAlias = tuple[Array, Array]
 
 
-def rms_and_max(distances: Array) -> tuple[float, float]:
-    """Root mean square and the largest size of some distances.
-
-    >>> rms_and_max(np.array([3.0, -3.0]))
-    (3.0, 3.0)
-    """
-    return float(np.sqrt(np.mean(distances**2))), float(np.abs(distances).max())
-
-
 def curve_residuals(
     points: Sequence[ArrayLike], curve: Sequence[ArrayLike], sigma: tuple[ArrayLike, ArrayLike]
 ) -> Distances:

@@ -49,17 +49,19 @@ def measure(comparison: Comparison, curves: Table) -> Measured:
 
 def _from_points(comparison: Comparison, series: Series, curves: Table) -> Measured:
     points = comparison.selected_points(series)
-    found = _distances(comparison, series, points, curves)
+    found = _distances(comparison, series, *points, curves)
     shifts: list[Array] = []
     for own, *both in _off_by_a_sigma(comparison, series, curves) if comparison.curve else ():
-        up, down = (_distances(comparison, series, points, off).sigmas for off in both)
+        up, down = (_distances(comparison, series, *points, off).sigmas for off in both)
         shift = (up - down) / 2
         # An error of a parameter moves all points together, unless each point has its own.
         shifts += list(np.diag(shift)) if own else [shift]
     return found._replace(shifts=np.reshape(shifts, (len(shifts), len(found.at))))
 
 
-def _distances(comparison: Comparison, series: Series, points: Table, curves: Table) -> Measured:
+def _distances(
+    comparison: Comparison, series: Series, points: Table, sigmas: list[Array], curves: Table
+) -> Measured:
     """Distances of points from the curves, or from their vertices, that they select.
 
     A point selects by its labels, as far as the comparison does not.
@@ -75,7 +77,6 @@ def _distances(comparison: Comparison, series: Series, points: Table, curves: Ta
     of_points, of_curves = (
         [table[pair].to_numpy(float) for pair in pairs] for table in (points, chosen)
     )
-    sigmas = [np.transpose(comparison.sigmas((series.x, y), points)) for y in series.ordinates]
     rows_of, find = _rows_by_labels(chosen, labels), _FROM_POINTS[comparison.metric]
     parts: list[tuple[Array, *Distances]] = []
     columns: list[str] = []

@@ -14,9 +14,8 @@ import pandas as pd
 from stronge1994 import tables
 from stronge1994.formulas import plain
 from stronge1994.judging.comparisons import Comparison
-from stronge1994.judging.distances import rms_and_max
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.verdicts import chi_squared_of, judge
+from stronge1994.judging.verdicts import Judgement, judge
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table
 from stronge1994.verdict_table import COLUMNS, LEDGER, Verdict
@@ -72,11 +71,11 @@ def _row(comparison: Comparison, curves: Table, significance: float) -> VerdictR
         return cells | {"verdict": Verdict.AWAITED, "note": reference.figure}
     try:
         measured = measure(comparison, curves)
-        verdict = judge(comparison, measured, significance)
-        cells |= _numbers(comparison, measured, significance)
+        judged = judge(comparison, measured, significance)
+        cells |= _numbers(comparison, measured, judged, significance)
         own = comparison.name, measured.quantity, measured.at, measured.sigmas
         cells["residuals"] = pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))
-        note = _note(comparison, measured, verdict)
+        verdict, note = judged.verdict, _note(comparison, measured, judged.verdict)
     except Exception as error:
         verdict, note = comparison.question.failed, f"{error}"
     return cells | {"verdict": verdict, "note": plain(note)}
@@ -95,7 +94,9 @@ def _note(comparison: Comparison, measured: Measured, verdict: Verdict) -> str:
     return "; ".join(part for part in (cause, place) if part)
 
 
-def _numbers(comparison: Comparison, measured: Measured, significance: float) -> VerdictRow:
+def _numbers(
+    comparison: Comparison, measured: Measured, judged: Judgement, significance: float
+) -> VerdictRow:
     bounds = comparison.regression.items()
     cells: VerdictRow = {
         "points": len(measured.at),
@@ -103,12 +104,11 @@ def _numbers(comparison: Comparison, measured: Measured, significance: float) ->
         "allowed": _allowed(comparison, significance),
         "regression": ", ".join(f"{low:g} <= {key} <= {high:g}" for key, (low, high) in bounds),
     }
-    for unit, distances in {"sigma": measured.sigmas, "axis units": measured.plain}.items():
-        rms, largest = rms_and_max(distances)
+    for unit, (rms, largest) in {"sigma": judged.sigmas, "axis units": judged.plain}.items():
         cells |= {f"rms [{unit}]": f"{rms:.3g}", f"max [{unit}]": f"{largest:.3g}"}
     if isinstance(comparison.reference, Fact):
         cells |= {"found": f"{measured.at[0]:.4g}", "stated": _stated(comparison.reference)}
-    if chi2 := chi_squared_of(comparison, measured):
+    if chi2 := judged.chi2:
         cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
         cells |= {"degrees of sigma": chi2.of_sigma or "", "p": f"{chi2.p:.2g}"}
     return cells
