@@ -60,9 +60,8 @@ def test_a_merge_may_be_overridden_and_merged_again(tmp_path):
 
 
 def test_a_sigma_may_be_a_hundredth_of_the_range_and_a_measured_one_larger():
-    axis = {"range": [0, 10], "sigma": 0.1}
-    reference_data._refuse_axis("x", axis, "digitised")
-    reference_data._refuse_axis("x", axis | {"sigma": 5}, "measured")
+    for sigma, kind in ((0.1, "digitised"), (5, "measured")):
+        reference_data._refuse_axis("x", reference_data.Axis("x", "1", sigma, (0, 10)), kind)
 
 
 SLIDING = "chung_ooi2011/rebound"

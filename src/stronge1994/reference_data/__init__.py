@@ -18,7 +18,6 @@ from stronge1994.reference_data.series import (
     Fact,
     Series,
     SourceError,
-    named_axes,
     of,
     text_of,
 )
@@ -73,7 +72,7 @@ def load(folder: Path, schema: Schema) -> Source:
     source = load_yaml(path)
     refuse_invalid(source, schema, path)
     for name, series in source.get("series", {}).items():
-        for where, axis in named_axes(series):
+        for where, axis in Series(**series).axes.items():
             _refuse_axis(f"{path}: series.{name}.{where}", axis, series["kind"])
         series["path"] = None
         if series["kind"] != "awaited":
@@ -106,17 +105,19 @@ def _visible(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir() if not path.name.startswith((".", "README"))}
 
 
-def _refuse_axis(where: str, axis: Mapping[str, Any], kind: str) -> None:
+def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
     """Refuse an axis whose numbers contradict each other, which a schema cannot see."""
-    low, high = axis["range"]
+    low, high = axis.range
     if not low < high:
-        raise SourceError(f"{where}.range = {axis['range']}: the first number must be the smaller")
-    if isinstance(axis["sigma"], str) or kind == "measured":
+        raise SourceError(
+            f"{where}.range = [{low:g}, {high:g}]: the first number must be the smaller"
+        )
+    if isinstance(axis.sigma, str) or kind == "measured":
         return
     most = LARGEST_SIGMA * (high - low)
-    if axis["sigma"] > most:
+    if axis.sigma > most:
         raise SourceError(
-            f"{where}.sigma = {axis['sigma']:g}: allowed is up to {most:g}, a hundredth of the "
+            f"{where}.sigma = {axis.sigma:g}: allowed is up to {most:g}, a hundredth of the "
             f"range {low:g} to {high:g}; with more the series would judge nothing"
         )
 

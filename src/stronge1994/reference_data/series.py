@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path
 from typing import Any
@@ -94,6 +94,13 @@ class Series:
         return self.y if isinstance(self.y, tuple) else (self.y,)
 
     @property
+    def axes(self) -> dict[str, Axis]:
+        """All axes, by their places in source.yaml."""
+        y = {f"y.{place}": axis for place, axis in enumerate(self.ordinates)}
+        given = {f"given.{place}": axis for place, axis in enumerate(self.given)}
+        return {"x": self.x} | (y if isinstance(self.y, tuple) else {"y": self.y}) | given
+
+    @property
     def is_published(self) -> bool:
         """Whether it holds points of nature, see `PUBLISHED`."""
         return self.kind in PUBLISHED
@@ -105,7 +112,7 @@ class Series:
         `SourceError` names file, line, column and value.
         """
         path = str(self.path)
-        axes = {axis.name: axis for axis in (self.x, *self.ordinates, *self.given)}
+        axes = {axis.name: axis for axis in self.axes.values()}
         for axis in list(axes.values()):
             if axis.sigma_name:
                 low, high = axis.range
@@ -126,16 +133,6 @@ class Series:
 def of(name: str, entry: Mapping[str, Any]) -> Series | Fact:
     """A series or a fact `source/name` from its entry in source.yaml; a series has a `kind`."""
     return (Series if "kind" in entry else Fact)(**{**entry, "name": name})
-
-
-def named_axes(entry: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """All axes of an entry in source.yaml, and where each stands in it."""
-    several = isinstance(entry["y"], list)
-    yield "x", entry["x"]
-    for place, axis in enumerate(entry["y"] if several else [entry["y"]]):
-        yield f"y.{place}" if several else "y", axis
-    for place, axis in enumerate(entry.get("given", [])):
-        yield f"given.{place}", axis
 
 
 def text_of(path: str | Path) -> str:
