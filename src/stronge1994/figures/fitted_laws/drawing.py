@@ -19,28 +19,28 @@ WHEN: dict[str, tuple[str, Style]] = {
     "after": ("fitted", {"linestyle": "-", "linewidth": 1.2}),
 }
 CONTINUUM: Style = {"color": "0.75", "linestyle": "-", "linewidth": 4.0, "zorder": 1.5}
+CONTINUUM |= {"label": "continuum of the pair"}
 DOTS: Style = {"color": house_style.BLACK, "marker": "o", "markersize": 1.8, "linestyle": "none"}
 
 
 def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw a panel for each pair: the continuum, both laws before and after, and LAMMPS itself."""
     figure = house_style.new(3.5)
-    pairs = settings["pairs"]
+    pairs = list(tables.each(curves, "pair", variant=["", *WHEN]))
     panels = figure.subplots(1, len(pairs), sharey=True, squeeze=False)[0]
-    for letter, axes, (pair, about) in zip("abcdef", panels, pairs.items(), strict=False):
+    for letter, axes, (pair, own) in zip("abcdef", panels, pairs, strict=False):
         axes.axhline(0, **house_style.GUIDE)
-        style = CONTINUUM | {"label": "continuum of the pair"}
-        curve = tables.select(curves, pair=pair, model="continuum")
-        exact = house_style.line(axes, curve, X, W, **style)
+        exact = house_style.line(axes, tables.select(own, model="continuum"), X, W, **CONTINUUM)
         columns: dict[str, house_style.Entries] = {when: [] for when in WHEN}
         for law, (words, colour) in LAWS.items():
             for when, (state, style) in WHEN.items():
                 style = style | {"label": f"{words}, {state}", "color": colour}
-                curve = tables.select(curves, pair=pair, model=law, variant=when)
+                curve = tables.select(own, model=law, variant=when)
                 columns[when].append(house_style.line(axes, curve, X, W, **style))
         if LAMMPS in points:
             series = points[LAMMPS].at(tables.where(points[LAMMPS].columns, pair=pair))
             axes.plot(series.x, series.y, zorder=3, **DOTS)
+        about = settings["pairs"][pair]
         axes.set_title(f"({letter}) {pair}, {about['loss']}\n$e = {about['restitution']:g}$")
         axes.set_xlim(0, settings["incidence_max"])
         axes.label_outer()

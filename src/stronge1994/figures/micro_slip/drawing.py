@@ -19,13 +19,14 @@ FORCES: dict[str, Style] = {
 
 def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw (a) radii of contact and stick; below, a panel of forces for each incidence."""
-    forces = settings["forces"]
+    contacts = dict(tables.each(curves, "x", model="continuum", x=settings["incidences"]))
+    forces = dict(tables.each(curves, "x", model="lumped"))
     figure = house_style.new(3.2 + 1.7 * len(forces))
     panels = figure.subplots(1 + len(forces), 1, sharex=True, height_ratios=[3] + [2] * len(forces))
-    contacts = dict(tables.each(curves, "x", model="continuum"))
-    colours = dict(zip(settings["incidences"], house_style.COLOURS, strict=False))
-    first = contacts[settings["incidences"][0]]
-    rim = house_style.line(panels[0], first, TIME, CONTACT, label="contact", **RIM)
+    colours = dict(zip(contacts, house_style.COLOURS, strict=False))
+    # The radius of contact is the same at every incidence.
+    own = next(iter(contacts.values()))
+    rim = house_style.line(panels[0], own, TIME, CONTACT, label="contact", **RIM)
     stick = []
     for x, colour in colours.items():
         style = {"color": colour, "linestyle": PATTERNS["continuum"]}

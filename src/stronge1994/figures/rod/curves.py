@@ -62,16 +62,10 @@ def curves(
             sudden = rigid.rebound(ratio, 1.0, rod, friction, restitution, law)
             columns = _columns(angle, sudden, rod, before)
             parts.append(tables.curve(columns, "rigid", variant, velocity_ratio=ratio))
+    state = contact["velocity_ratio"], 1.0, slender_rod(contact["tilt"])
     for mu in (friction, 0.0):
         followed = noncollinear.history(
-            contact["velocity_ratio"],
-            1.0,
-            slender_rod(contact["tilt"]),
-            mu,
-            restitution,
-            stiffness_ratio,
-            samples=samples,
-            loss="hysteretic",
+            *state, mu, restitution, stiffness_ratio, samples=samples, loss="hysteretic"
         )
         parts.append(tables.curve(_followed(followed), "lumped", "contact", mu=mu))
     return tables.join(parts)

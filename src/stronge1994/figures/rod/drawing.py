@@ -22,6 +22,10 @@ NEWTON: Style = {"color": house_style.VERMILLION, "linestyle": house_style.DASHE
 NEWTON |= {"linewidth": 1.1, "label": "rigid, Newton"}
 CREATED: Style = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 CREATED |= {"label": "creates energy"}
+# Friction is broad and below the normal force: where the contact slips, they coincide.
+OF_FRICTION: Style = {"color": house_style.SKY, "linewidth": 2.4, "label": r"$F_1/\mu$"}
+SMOOTH: Style = {"color": house_style.GREY, "linestyle": house_style.DASHES[1]}
+SMOOTH |= {"label": r"$F_2$, $\mu = 0$"}
 JAM: Style = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
 JAM |= {"label": "jams"}
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.9", "SLIP_THROUGHOUT": "0.75"}
@@ -30,12 +34,12 @@ SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.9", "SLIP_THROUGHOUT": "0
 def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw (a, b) velocities and (c) energy over the tilt, a column for each ratio; (d) forces."""
     figure = house_style.new(8.6)
-    impacts = list(tables.each(curves, "velocity_ratio"))
+    impacts = list(tables.each(curves, "velocity_ratio", variant=["", "Newton"]))
     over_tilt, over_time = figure.add_gridspec(2, 1, height_ratios=[5.7, 2])
     panels = over_tilt.subgridspec(1 + len(ROWS), len(impacts), height_ratios=[0.8, 2, 2, 2])
     panels = panels.subplots(sharex=True, sharey="row", squeeze=False)
-    for column, (ratio, _) in zip(panels.T, impacts, strict=True):
-        _draw_over_tilt(column, curves, ratio)
+    for column, (ratio, own) in zip(panels.T, impacts, strict=True):
+        _draw_over_tilt(column, own)
         column[0].set_title(rf"$v_1(0)/v_2(0) = {ratio:g}$")
     house_style.letter(panels[1:, 0])
     for axes in panels[:, 1:].ravel():
@@ -58,9 +62,10 @@ def _shown(panels: Sequence[Axes]) -> Entries:
     return list({label: artist for pair in pairs for artist, label in pair}.values())
 
 
-def _draw_over_tilt(panels: Sequence[Axes], curves: Table, ratio: float) -> None:
+def _draw_over_tilt(panels: Sequence[Axes], curves: Table) -> None:
+    """Draw one column of panels from the curves of one ratio of velocities."""
     compliant, rigid, newton = (
-        tables.select(curves, model=model, variant=variant, velocity_ratio=ratio)
+        tables.select(curves, model=model, variant=variant)
         for model, variant in (("lumped", ""), ("rigid", ""), ("rigid", "Newton"))
     )
     _draw_ribbons(panels[0], compliant, rigid)
@@ -96,19 +101,10 @@ def _draw_contact(axes: Axes, curves: Table, friction: float) -> Entries:
     """Draw (d) both forces against time, stick and slip above them; entries of the legend."""
     contact, smooth = (tables.select(curves, variant="contact", mu=mu) for mu in (friction, 0.0))
     contact[OVER_MU] = contact["friction_force [m2 Omega v2(0)]"] / friction
-    # Friction is broad and below the other: where the contact slips, they coincide.
     lines = [
-        house_style.line(axes, curve, TIME, column, label=label, **style)
-        for curve, column, label, style in (
-            (contact, OVER_MU, r"$F_1/\mu$", {"color": house_style.SKY, "linewidth": 2.4}),
-            (contact, NORMAL, "$F_2$", {"color": house_style.BLACK}),
-            (
-                smooth,
-                NORMAL,
-                r"$F_2$, $\mu = 0$",
-                {"color": house_style.GREY, "linestyle": house_style.DASHES[1]},
-            ),
-        )
+        house_style.line(axes, contact, TIME, OVER_MU, **OF_FRICTION),
+        house_style.line(axes, contact, TIME, NORMAL, color=house_style.BLACK, label="$F_2$"),
+        house_style.line(axes, smooth, TIME, NORMAL, **SMOOTH),
     ]
     axes.axhline(0, **house_style.GUIDE)
     axes.set(xlim=(0, None), ylabel=r"(d) force$/m_2\Omega v_2(0)$")

@@ -75,7 +75,7 @@ def curves(
     alone = halves(measured, ball["mass_ratio"])
     e_t = measured["tangential_restitution"], *alone
     limits = np.array([sticking, incidence[1]])
-    labels = {"impact": measured["impact"], ANGLE: measured["angle"], X: at}
+    labels = {"impact": measured["impact"], ANGLE: measured["angle"]}
     balls = {"ball": list(STATED), ANGLE: angle[0], X: stated[0][0]}
     halves_of_e_t = zip(ALONE, alone, strict=True)
     parts = [tables.curve({X: at, E_T: half}, "measured", key) for key, half in halves_of_e_t]
@@ -84,12 +84,11 @@ def curves(
         own, e_of_line = {X: at, E_T: solve(at, 1.0)}, 1.0
         if model != ELASTIC:
             *cases, above, below = solve(*impacts)
-            own, e_of_line = labels | curves_below_one.with_sigma(E_T, cases), restitution
+            own = labels | {X: at} | curves_below_one.with_sigma(E_T, cases)
+            e_of_line = restitution
             for sign, off in ((1, above), (-1, below)):
-                columns = labels | {E_T: off}
-                parts.append(
-                    tables.curve(columns, model, "impacts", shifted="friction", sigmas=sign)
-                )
+                shift = {"shifted": "friction", "sigmas": sign}
+                parts.append(tables.curve(labels | {E_T: off}, model, "impacts", **shift))
             columns = balls | curves_below_one.with_sigma(E_T, solve(*stated))
             parts.append(tables.curve(columns, model, "stated"))
         parts.append(tables.curve(own, model, "impacts"))

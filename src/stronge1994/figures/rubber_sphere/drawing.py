@@ -14,6 +14,8 @@ from stronge1994.tables import Table
 
 X, E_T = "incidence [mu v2(0)]", "tangential_restitution [1]"
 IMPACTS, STATED = "cross2014/impacts", "cross2014/stated"
+# Friction of each stated ball among the parameters of its source.
+FRICTION = {"Cross 2010": "friction_2010", "Cross 2002": "friction_2002"}
 ALONE = "velocity alone", "spin alone"
 
 
@@ -49,7 +51,7 @@ def _impacts(series: Scatter, settings: Settings) -> Scatter:
 
 def _stated(series: Scatter, settings: Settings) -> Scatter:
     """Stated impacts over incidence, with the error that their unknown friction makes."""
-    keys = [f"friction_{ball[-4:]}" for ball in series.columns["ball"]]
+    keys = [FRICTION[ball] for ball in series.columns["ball"]]
     friction, sigma = (
         np.array([settings[known][key] for key in keys]) for known in ("ball", "uncertainty")
     )
