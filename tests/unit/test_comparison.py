@@ -226,6 +226,7 @@ def test_a_point_selects_its_curve_by_its_labels_unless_the_comparison_does(tmp_
             "allowed is one curve, and these are selected: lumped, e = 0.5; pr",
         ),
         ({"model": "lumped", "e": "half"}, "e = 'half': allowed are numbers"),
+        ({"variant": "", "e": 0.25}, "no curve has e = 0.25; there are: lumped, e = 0.5"),
     ):
         series = Series("computed", AXIS, y, str(path), labels=["variant", "e"])
         with pytest.raises(ValueError, match=problem):

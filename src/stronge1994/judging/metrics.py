@@ -68,6 +68,8 @@ def _distances(
     """
     fixed = {key: "" for key in tables.DEFAULTS if key in curves and key not in series.labels}
     chosen = curves[tables.where(curves, **fixed | comparison.curve)]
+    if chosen.empty:
+        tables.select(curves, **fixed | comparison.curve)  # says that there is none
     labels = [key for key in series.labels if key in chosen and key not in comparison.curve]
     # A label such as the number of a run is no choice among curves that do not have it.
     empty = [key for key in labels if chosen[key].isin(["", np.nan]).all()]

@@ -24,7 +24,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     ]
     balance = [house_style.line(axes, curve, X, Y, **style) for curve, style in balances]
     # Where slip stops, it is one line for all mu and e.
-    largest = {key: curves[key].max() for key in ("mu", "e")}
+    largest = {key: max(curve[key].iloc[0] for curve, _ in balances) for key in ("mu", "e")}
     rigid, lumped = (tables.select(curves, model=model, **largest) for model in ("rigid", "lumped"))
     added = [house_style.rigid(axes, rigid, X, Y, compliant=lumped)]
     continua = curves[tables.where(curves, model=CONTINUA)]
