@@ -124,7 +124,7 @@ def where(table: Table, **wanted: Any) -> Booleans:
 
 def _as_number(column: str, value: Any) -> float:
     try:
-        return float(value)
+        return np.nan if value == "" else float(value)
     except ValueError:
         raise ValueError(f"{column} = {value!a}: allowed are numbers") from None
 

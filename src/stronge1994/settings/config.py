@@ -190,4 +190,7 @@ def reference(inventory: Inventory, name: str, where: str = "reference") -> Entr
     for kind in ("series", "facts"):
         if entry in inventory.get(source, {}).get(kind, {}):
             return inventory[source][kind][entry]
-    raise ConfigError(f"{where}: {name!a} is neither a series nor a fact in data/")
+    known = inventory.get(source, {})
+    there = [f"{source}/{one}" for kind in ("series", "facts") for one in known.get(kind, {})]
+    allowed = f"; allowed are {', '.join(there or inventory)}"
+    raise ConfigError(f"{where}: {name!a} is neither a series nor a fact in data/{allowed}")

@@ -85,7 +85,8 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     cells = grid[0, :], grid[1, 0], grid[1, 1]
     for letter, cell, ((e, loss), same) in zip("abc", cells, cases.items(), strict=False):
         axes = figure.add_subplot(cell, xscale="log", yscale="log")
-        timed = same.dropna(subset=[time])
+        timed = same.reindex(columns=[*same, time]) if time not in same else same
+        timed = timed.dropna(subset=[time])
         _draw_errors(axes, timed, time, numbers=letter == "a")
         if OTHERS in points and batch == BATCH_OF_OTHERS:
             others = points[OTHERS].columns
@@ -150,7 +151,8 @@ def _draw_growth(axes: Axes, rows: Table, batches: Sequence[int]) -> None:
     """Draw time against the size of batch, with the finest setting of each model."""
     for model, dashes in zip(GROWTH, ("-", *house_style.DASHES), strict=True):
         finest = rows[rows["model"] == model].tail(1)
-        for _, row in finest[[f"time_{batch} [s]" for batch in batches]].iterrows():
+        columns = [f"time_{batch} [s]" for batch in batches]
+        for _, row in finest.reindex(columns=columns).iterrows():
             style = MARKS[model] | {"linestyle": dashes, "linewidth": 0.9}
             solved = row.notna().to_numpy()
             axes.loglog(np.array(batches)[solved], row[solved], **style)
