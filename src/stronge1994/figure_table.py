@@ -64,7 +64,7 @@ def of_run(rows: Sequence[Row]) -> list[FigureRow]:
     >>> of_run([row])[0].solved[0].size
     '4e-13'
     """
-    table = pd.DataFrame(dict.fromkeys(COLUMNS, "") | row for row in rows)
+    table = pd.DataFrame([dict.fromkeys(COLUMNS, "") | row for row in rows], columns=COLUMNS)
     numbers = [column for column in COLUMNS if column == "points" or column[-1] == "]"]
     table[numbers] = table[numbers].apply(pd.to_numeric)
     verdicts = [Verdict(verdict) for verdict in table["verdict"]]
