@@ -44,7 +44,6 @@ rule notebooks:
     """The lectures alone: notebooks run from the first cell to the last, as pages."""
     input:
         "results/curves/trade.csv",
-        rules.trade_tables.output,
         expand(rules.lecture.output, notebook=NOTEBOOKS),
 
 
@@ -71,8 +70,8 @@ for target, names in [("paper", PAPER), *((name, [name]) for name in JUDGED)]:
 
 
 onsuccess:
-    print(last_words(stopped=False))
+    print(summary(stopped=False))
 
 
 onerror:
-    print(last_words(stopped=True))
+    print(summary(stopped=True))

@@ -229,7 +229,7 @@ def push() -> pd.DataFrame:
                 restitutions.append(impact(settings, pushed=PUSH, history=path)["restitution"])
                 shares.append(share_of_elastic(pd.read_csv(path), settings["nu"]))
         e = np.mean(restitutions)
-        columns = {"curve": f"pushed, e = {e:.2g}", APPROACH: PLACES, E: round(e, 4)}
+        columns = {"e": float(f"{e:.2g}"), APPROACH: PLACES, E: round(e, 4)}
         tables.append(pd.DataFrame(columns | {SHARE: np.mean(shares, axis=0).round(4)}))
     return pd.concat(tables, ignore_index=True)
 
@@ -308,7 +308,7 @@ def _elastic(runs: pd.DataFrame) -> pd.DataFrame:
     contact = body + ", mu " + runs["mu"].map("{:g}".format)
     return pd.DataFrame(
         {
-            "curve": body.str.replace("nu ", "continuum, nu = "),
+            "nu": runs["nu"],
             "contact": contact,
             "run": contact + ", x " + runs["x"].map("{:g}".format),
             X: runs["x"],

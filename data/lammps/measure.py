@@ -15,12 +15,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import yaml
 
 from planarimpact import bodies, fit
+from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.fit import overlaps
-from planarimpact.ground.arrays import Array, ArrayLike
-from stronge1994 import csv_tables
 from stronge1994.figures.fitted_laws import curves
 
 HERE = Path(__file__).resolve().parent
@@ -129,7 +129,7 @@ def before(lines: str, nu: float, e: float) -> str:
 
 
 def rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
-    """Curve, incidence and velocity of every impact."""
+    """Pair, law, variant, incidence and velocity of every impact."""
     measured = []
     for pair, laws in curves.fitted(pairs, incidence_max).items():
         nu, e = (float(pairs[pair][key]) for key in ("poisson_ratio", "restitution"))
@@ -140,14 +140,14 @@ def rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
             for name, text in (("before", before(lines, nu, e)), ("after", lines)):
                 velocity = collide_pairs(text, x, **SPHERE)
                 measured += [
-                    [f"{pair}, {law}, {name}", f"{at:.10g}", f"{w:.6f}"]
+                    [pair, law, name, f"{at:.10g}", f"{w:.6f}"]
                     for at, w in zip(x, velocity, strict=True)
                 ]
     return measured
 
 
 def overlap_rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
-    """Curve, overlap, and how far LAMMPS is from what the fit foresees, with its lines."""
+    """Pair, law, friction, overlap, and how far LAMMPS, with the lines of a fit, is from it."""
     measured = []
     for pair, laws in curves.fitted(pairs, incidence_max).items():
         material = bodies.Material(YOUNG_MODULUS, float(pairs[pair]["poisson_ratio"]))
@@ -159,8 +159,8 @@ def overlap_rows(pairs: dict[str, Any], incidence_max: float) -> list[list[objec
                 lines = fit.lines(found, material, **sphere)
                 off = np.abs(collide_pairs(lines, found.incidence, **sphere) - found.after)
                 cost = [off[found.incidence <= end].max() for end in overlaps.INCIDENCES]
-                curve = f"{pair}, {law}, mu = {friction:g}"
-                measured.append([curve, *(f"{number:.4f}" for number in (size, *cost))])
+                numbers = (f"{number:.4f}" for number in (size, *cost))
+                measured.append([pair, law, f"{friction:g}", *numbers])
     return measured
 
 
@@ -174,7 +174,10 @@ def _values(node: dict[str, Any]) -> Any:
 
 
 if __name__ == "__main__":
-    header = ["curve", "incidence [mu v2(0)]", "velocity [mu v2(0)]"]
-    csv_tables.write_rows(HERE / "rebound.csv", header, rows(**settings()))
-    header = ["curve", "overlap [radius]", "cost_sticking [mu v2(0)]", "cost_sliding [mu v2(0)]"]
-    csv_tables.write_rows(HERE / "overlap.csv", header, overlap_rows(**settings()))
+    header = ["pair", "model", "variant", "incidence [mu v2(0)]", "velocity [mu v2(0)]"]
+    impacts = pd.DataFrame(rows(**settings()), columns=header)
+    impacts.to_csv(HERE / "rebound.csv", index=False, lineterminator="\n")
+    ends = ["cost_sticking [mu v2(0)]", "cost_sliding [mu v2(0)]"]
+    header = ["pair", "model", "mu", "overlap [radius]", *ends]
+    costs = pd.DataFrame(overlap_rows(**settings()), columns=header)
+    costs.to_csv(HERE / "overlap.csv", index=False, lineterminator="\n")

@@ -19,16 +19,17 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 from scipy import optimize
 
 from planarimpact import continuum, models
-from planarimpact.ground.arrays import Array
-from stronge1994 import csv_tables, one_thread  # noqa: F401
+from planarimpact.common.arrays import Array
+from stronge1994 import one_thread  # noqa: F401
 from stronge1994.figures.trade import curves as trade
 
 TABLE = Path(__file__).with_name("impacts.csv")
 HEADER = [
-    *("curve", "loss", "time [us]", "table_time [us]", "times_table [1]", "refused [1]"),
+    *("code", "settings", "loss", "time [us]", "table_time [us]", "times_table [1]", "refused [1]"),
     *("max_velocity [mu v2(0)]", "restitution [1]", "rms_velocity [mu v2(0)]"),
 ]
 INCIDENCE, SAMPLES, BATCH = (0.0, 8.0), 81, 100
@@ -63,8 +64,8 @@ class Contact(NamedTuple):
     limited: bool = False
 
     def label(self, e: float) -> str:
-        """Name of the curve without restitution and loss."""
-        words = [f"LAMMPS {self.law}", f"{self.steps} steps"]
+        """The settings in words, without restitution and loss."""
+        words = [self.law, f"{self.steps} steps"]
         if e < 1:
             words += [self.damping] if self.damping != VISCOELASTIC else []
             words += [f"xt = {self.tangential:g}"] if self.tangential else []
@@ -208,13 +209,13 @@ def pooltool_impacts(x: Array, e: float) -> tuple[Array, float]:
     return velocity, time.process_time() - start
 
 
-def codes(e: float) -> dict[str, Callable[[Array], tuple[Array, float]]]:
-    """Both codes with every setting, by name: w of each incidence, and the seconds of all."""
-    by_name: dict[str, Callable[[Array], Any]] = {}
+def codes(e: float) -> dict[tuple[str, str], Callable[[Array], tuple[Array, float]]]:
+    """Both codes with every setting, by both: w of each incidence, and the seconds of all."""
+    by_name: dict[tuple[str, str], Callable[[Array], Any]] = {}
     for contact in ELASTIC if e == 1 else LOSSY:
         settings = {"contact": contact, "number": damping_number(contact, e)}
-        by_name[contact.label(e)] = functools.partial(lammps_impacts, **settings)
-    return by_name | {"pooltool": functools.partial(pooltool_impacts, e=e)}
+        by_name["LAMMPS", contact.label(e)] = functools.partial(lammps_impacts, **settings)
+    return by_name | {("pooltool", ""): functools.partial(pooltool_impacts, e=e)}
 
 
 def rows() -> Iterator[list[str]]:
@@ -234,11 +235,11 @@ def rows() -> Iterator[list[str]]:
                 error = np.abs(solvers[name](x)[0] - exact.velocity)
                 error = error[np.isfinite(error)]
                 numbers = own_time, table_time, own_time / table_time, x.size - error.size
-                labels = [name, loss, *(f"{number:.3g}" for number in numbers)]
+                labels = [*name, loss, *(f"{number:.3g}" for number in numbers)]
                 largest, usual = error.max(), trade.root_mean_square(error)
                 yield [*labels, f"{largest:.4f}", f"{e:g}", f"{usual:.4f}"]
 
 
 if __name__ == "__main__":
     trade.ROUNDS = 15  # more than the figure takes: other programs ran at the same time
-    csv_tables.write_rows(TABLE, HEADER, list(rows()))
+    pd.DataFrame(rows(), columns=HEADER).to_csv(TABLE, index=False, lineterminator="\n")

@@ -15,7 +15,7 @@
   strike off their centre.
 - `normal_impact.hertz`, `normal_impact.kelvin_voigt`, `normal_impact.yielding`: head-on impact of
   spheres, elastic, viscous and plastic.
-- `ground`: what all of these stand on.
+- `common`: what all of these stand on.
 
 Symbols and their names. Every model takes the first four. Index 1 is tangential, 2 normal.
 
@@ -36,15 +36,15 @@ An example runs after `import numpy as np` and `from planarimpact.lumped import 
 stands for the module on whose page it is.
 """
 
-__version__ = "0.2.0"  # before the rooms, as `export` writes it into its files
+__version__ = "0.2.0"  # before the imports, as `export` writes it into its files
 
 from planarimpact import (
     bodies,
     collision,
+    common,
     continuum,
     export,
     fit,
-    ground,
     lumped,
     models,
     noncollinear,
@@ -54,17 +54,17 @@ from planarimpact import (
     spheres,
 )
 from planarimpact.collision import Collision, Pair, collide
-from planarimpact.continuum import ContinuumHistory
-from planarimpact.ground.checks import ConvergenceError, InputError
-from planarimpact.ground.results import (
+from planarimpact.common.checks import ConvergenceError, InputError
+from planarimpact.common.results import (
     Event,
     EventKind,
     History,
     Rebound,
     Regime,
 )
+from planarimpact.continuum import ContinuumHistory
 
-# Rooms first, in the order of the words above.
+# Modules first, in the order of the text above.
 __all__ = [
     "lumped",
     "rigid",
@@ -78,7 +78,7 @@ __all__ = [
     "bodies",
     "noncollinear",
     "normal_impact",
-    "ground",
+    "common",
     "Collision",
     "Pair",
     "collide",

@@ -21,10 +21,10 @@ from planarimpact import (
     lumped,
     models,
 )
+from planarimpact.common import checks
+from planarimpact.common.arrays import ArrayLike
+from planarimpact.common.results import History, Rebound, Regime
 from planarimpact.continuum import ContinuumHistory
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import ArrayLike
-from planarimpact.ground.results import History, Rebound, Regime
 from planarimpact.scene import columns as scene_columns
 
 ABOUT = """
@@ -155,7 +155,7 @@ def _history(options: argparse.Namespace) -> None:
     checks.impact(x, *groups.values())
     if not loss:
         names = models.losses(family).values()
-        checks.lossless(options.restitution, names, "the model's name")
+        checks.require_loss(options.restitution, names, "a model with a loss")
     result: History | ContinuumHistory
     if family == "continuum":
         _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")
@@ -261,7 +261,7 @@ def _errors(groups: dict[str, float], loss: str | None) -> dict[str, ArrayLike]:
     """Errors of every model against the continuum, and where a measurement can show them."""
     checks.impact(0.0, *groups.values())
     reference = models.reference(groups["restitution"], loss)
-    loss = loss or continuum.LOSSES[0]
+    loss = loss or continuum.VISCOUS  # at e = 1 both losses have the same continuum
     limit = continuum.slip_throughout_limit(**groups, loss=loss)
     x = np.linspace(0.0, float(limit), INCIDENCES)
     # A tenth of the default tolerance, so that the continuum itself has an error, too.
@@ -492,7 +492,7 @@ def _add_model(parser: argparse.ArgumentParser, begin: str | tuple[str, ...]) ->
         "--model",
         choices=[name for name in models.MODELS if name.startswith(begin)],
         default="lumped",
-        help="below e = 1 one whose name says what takes the energy [%(default)s]",
+        help="below e = 1 one with a loss in its name [%(default)s]",
     )
     _add_groups(parser)
 

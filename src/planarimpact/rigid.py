@@ -6,9 +6,9 @@ configuration it never turns round. These are the light and dotted curves of Fig
 
 import numpy as np
 
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import ArrayLike
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import ArrayLike
+from planarimpact.common.results import Rebound, Regime
 
 
 @checks.default_errors

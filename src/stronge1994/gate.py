@@ -4,10 +4,10 @@ import shlex
 import textwrap
 from collections.abc import Collection, Mapping, Sequence
 
-from stronge1994 import csv_tables
-from stronge1994.csv_tables import Row
+from stronge1994 import figure_table, tables, verdict_table
 from stronge1994.ledger import outcome
-from stronge1994.verdict_tables import figure_table, verdict_table
+from stronge1994.tables import Row
+from stronge1994.verdict_table import Verdict
 
 LEDGER, REPORT = "results/ledger.csv", "figures/report.html"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
@@ -48,13 +48,13 @@ def faults(
         *(
             f"{row['verdict']}: {row['comparison']}: {verdict_table.why(row)}"
             for row in verdicts
-            if row["verdict"] in verdict_table.FAILS
+            if verdict_table.fails(row)
         ),
         *(f"no longer holds: {row['entry']}: {row['problem']}" for row in outcome.failing(ledger)),
     ]
 
 
-def last_words(
+def summary(
     verdicts: Sequence[str],
     comparisons: Collection[str],
     entries: Collection[str],
@@ -71,11 +71,11 @@ def last_words(
     `config` are the arguments of --config, to be repeated.
     """
     rows = verdict_table.gather(verdicts)
-    ledger = csv_tables.read_rows(LEDGER, outcome.COLUMNS) if entries else []
+    ledger = tables.read_rows(LEDGER, outcome.COLUMNS) if entries else []
     wrong = faults(rows, ledger, comparisons, entries)
     parts = [""]
     if len(verdicts) > 1:
-        known = sum(row["verdict"] in verdict_table.DIFFERENCES for row in rows)
+        known = sum(Verdict(row["verdict"]).differs for row in rows)
         parts += [figure_table.text(figure_table.of_run(rows)), ""]
         parts += [_filled(line) for line in verdict_table.counts(rows).splitlines()]
         parts += [_filled(KNOWN.format(known))]

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.arrays import ArrayLike
+from planarimpact.common.arrays import ArrayLike
 
 
 class ChiSquared(NamedTuple):

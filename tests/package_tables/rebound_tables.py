@@ -57,15 +57,15 @@ def _on_grid(x):
 
 
 def _fig5():
-    header = ["curve", INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"]
-    return table(header, _sphere, product(("continuum", "continuum, rubber"), INCIDENCES))
+    header = ["model", "variant", INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"]
+    return table(header, _sphere, product((None, "rubber"), INCIDENCES))
 
 
-def _sphere(curve, x):
-    at, found = _sphere_rebound(RUBBER if "rubber" in curve else ZETA2)
+def _sphere(variant, x):
+    at, found = _sphere_rebound(RUBBER if variant else ZETA2)
     velocity = found.velocity[at.index(x)]
-    spin = None if "rubber" in curve else digits(-5 / 7 * (x - velocity), 5)
-    return [curve, x, digits(velocity, 5), spin]
+    spin = None if variant else digits(-5 / 7 * (x - velocity), 5)
+    return ["continuum", variant, x, digits(velocity, 5), spin]
 
 
 if __name__ == "__main__":

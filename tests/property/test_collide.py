@@ -235,12 +235,12 @@ def test_one_impact_is_that_of_many(seed):
             assert not one_impact.collide(pair, ball, WALL, vectors, 0.999 * one.error_bound / 0.3)
         # A float64 beside a threshold one may take the formula, and the other one the table.
         error = max(one.error_bound, many.error_bound[i])
-        same_rung = one.error_bound == many.error_bound[i]
-        assert same_rung or abs(distance[i]) < 1e-14
+        same_method = one.error_bound == many.error_bound[i]
+        assert same_method or abs(distance[i]) < 1e-14
         np.testing.assert_allclose(
-            one.velocity, many.velocity[i], rtol=1e-12, atol=1e-12 if same_rung else error
+            one.velocity, many.velocity[i], rtol=1e-12, atol=1e-12 if same_method else error
         )
-        assert one.regime == many.regime[i] or not same_rung
+        assert one.regime == many.regime[i] or not same_method
         assert one.incidence == pytest.approx(many.incidence[i], rel=1e-14)
         assert one.restitution == many.restitution[i] and one.loss == many.loss[i]
     assert plain > 0.6 * x.size

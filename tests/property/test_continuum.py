@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planarimpact import Regime, continuum, lumped
+from planarimpact.common import sliding
 from planarimpact.continuum import annuli, micro_slip
-from planarimpact.ground import sliding
 
 LOSSES = list(continuum.LOSSES)
 ELASTIC_SHEAR = "plastic-elastic-shear"

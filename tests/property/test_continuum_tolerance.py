@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, continuum, lumped
+from planarimpact.common import sliding
 from planarimpact.continuum import inelastic, tangential_motion
 from planarimpact.continuum.micro_slip import ElasticSprings
-from planarimpact.ground import sliding
 from planarimpact.normal_impact import hertz
 
 STEPS = 1024, 2048, 4096

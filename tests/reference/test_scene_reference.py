@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from planarimpact import bodies, continuum, scene
-from planarimpact.ground import sliding
+from planarimpact.common import sliding
 from stronge1994 import reference_data
 from tests.package_tables import scene_tables
 from tests.reference_solutions import solved_tables

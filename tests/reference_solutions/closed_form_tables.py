@@ -8,7 +8,7 @@ import sys
 from mpmath import mp
 
 from tests.reference_solutions import exact_tables, table_files
-from tests.reference_solutions.exact_tables import ANGLE, BETA, INCIDENCE, VELOCITY, ZETA2
+from tests.reference_solutions.exact_tables import BETA, INCIDENCE, VELOCITY, ZETA2
 from tests.reference_solutions.table_files import Table, table
 
 
@@ -39,9 +39,9 @@ def _fig2():
         "normal unloading": [(1, 1), (1 - base, 0)],
         "tangential": [(s, s / mp.mpf(ZETA2)) for s in (-1, 1)],
     }
-    header = ["curve", "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"]
-    ends = [(curve, *point) for curve, points in lines.items() for point in points]
-    return table(header, lambda curve, *point: [curve, *map(mp.mpf, point)], ends)
+    header = ["variant", "deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]"]
+    ends = [(variant, *point) for variant, points in lines.items() for point in points]
+    return table(header, lambda variant, *point: [variant, *map(mp.mpf, point)], ends)
 
 
 # Without tangential compliance: slides until the impulse is x/beta, then sticks ----------------
@@ -49,11 +49,11 @@ def _fig2():
 
 def _fig5():
     grid = (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 6.5, 6.9, 7.0, 7.1, 7.5, 8.0, 10.0, 12.0, 14.0)
-    return table(["curve", INCIDENCE, VELOCITY], _rebound, [(x,) for x in grid])
+    return table(["model", INCIDENCE, VELOCITY], _rebound, [(x,) for x in grid])
 
 
 def _rebound(x):
-    return ["no tangential compliance", x, max(mp.zero, mp.mpf(x) - 2 * mp.mpf(BETA))]
+    return ["rigid", x, max(mp.zero, mp.mpf(x) - 2 * mp.mpf(BETA))]
 
 
 def _fig7():
@@ -62,16 +62,17 @@ def _fig7():
     At the border x = 2 beta - zeta^2 friction is mu cos(theta) at its largest, mu = tan(theta)/x.
     """
     border = 2 * mp.mpf(BETA) - mp.mpf(ZETA2)
-    header, angles = ["curve", ANGLE, "peak_force [m2 Omega S]"], [*exact_tables.FIG7_ANGLES, 90.0]
-    lines = [("normal", mp.cos, mp.one), ("slip throughout", mp.sin, border)]
-    turned = [(curve, angle, *line) for curve, *line in lines for angle in angles]
+    header = [*exact_tables.CURVE, *exact_tables.FIG7_COLUMNS]
+    angles = [*exact_tables.FIG7_ANGLES, 90.0]
+    lines = [("normal force", mp.cos, mp.one), ("slip throughout", mp.sin, border)]
+    turned = [(variant, angle, *line) for variant, *line in lines for angle in angles]
     halted = [(mu, a) for mu in exact_tables.FRICTIONS for a in exact_tables.fig7_angles(mu)]
     rows = table(header, _turned, turned).rows + table(header, _halted_force, halted).rows
     return Table(header, rows)
 
 
-def _turned(curve, angle, function, over):
-    return [curve, angle, function(mp.radians(angle)) / over]
+def _turned(variant, angle, function, over):
+    return ["lumped", variant, None, angle, function(mp.radians(angle)) / over]
 
 
 def _halted_force(mu, angle):
@@ -79,8 +80,7 @@ def _halted_force(mu, angle):
     halt = mp.tan(theta) / mp.mpf(mu) / mp.mpf(BETA)  # impulse
     # The impulse is 1 - cos(tau), the force sin(tau) up to the greatest compression.
     normal = mp.sqrt(halt * (2 - halt)) if halt < 1 else mp.one
-    curve = f"no tangential compliance, mu = {mu:g}"
-    return [curve, angle, mp.mpf(mu) * mp.cos(theta) * normal]
+    return ["rigid", None, mu, angle, mp.mpf(mu) * mp.cos(theta) * normal]
 
 
 def _fig9():
@@ -89,7 +89,7 @@ def _fig9():
         angles = {float(k) for k in range(5, 90, 5)}
         angles |= set(exact_tables.threshold_angles(mu, (1 + e) * BETA))
         places += [(mu, e, angle) for angle in sorted(angles)]
-    return table(["curve", ANGLE, "friction_dissipation [m2 S^2/2]"], _halted_work, places)
+    return table(["model", *exact_tables.FIG9_COLUMNS], _halted_work, places)
 
 
 def _halted_work(mu, e, angle):
@@ -98,7 +98,7 @@ def _halted_work(mu, e, angle):
     before = mp.tan(theta) / mp.mpf(mu)
     after = max(mp.zero, before - (1 + mp.mpf(e)) * mp.mpf(BETA))
     lost = (before**2 - after**2) / mp.mpf(BETA) * (mp.mpf(mu) * mp.cos(theta)) ** 2
-    return [f"no tangential compliance, mu = {mu:g}, e = {e:g}", angle, lost]
+    return ["rigid", mu, e, angle, lost]
 
 
 if __name__ == "__main__":

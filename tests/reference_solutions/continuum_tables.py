@@ -27,7 +27,7 @@ ROW_ERROR = {"friction": 5e-5, "velocity": 1e-4, "stick_radius": 5e-4}
 def tables():
     """The one table, `{name: Table}`."""
     radii = ["contact_radius [a_max]", "stick_radius [a_max]"]
-    header = ["curve", "time [t_c]", *HERTZ_FORCES, VELOCITY, *radii]
+    header = ["model", "x", "time [t_c]", *HERTZ_FORCES, VELOCITY, *radii]
     return {"micro_slip_instants": table_files.table(header, _course, product(COURSES, INSTANTS))}
 
 
@@ -49,7 +49,7 @@ def _course(x, time):
     friction, velocity, stick = (float(part[at]) for part in by_springs())
     edge = hertz_radius(time)
     columns = [edge**3, digits(friction, 6), digits(velocity, 6), edge, digits(stick, 6)]
-    return [f"continuum, x = {x:g}", time, *columns]
+    return ["continuum", x, time, *columns]
 
 
 def hertz_radius(time):

@@ -40,43 +40,43 @@ class Answer(NamedTuple):
 
 def tables():
     """All tables, `{name: Table}`."""
-    models = {"rigid": rigid, "laws.smith": smith, "laws.brach": brach}
-    elastic, models = models | {"lumped": lumped}, models | {"lumped.hysteretic": lumped}
+    models = {("rigid", None): rigid, ("laws.smith", None): smith, ("laws.brach", None): brach}
+    elastic = models | {("lumped", None): lumped}
+    models |= {("lumped.hysteretic", None): lumped}
     steps = {
-        f"timestep.{law}, {steps} steps": functools.partial(stepped, law, steps)
+        (f"timestep.{law}", f"{steps}"): functools.partial(stepped, law, steps)
         for law in leapfrog.LAWS
         for steps in STEPS
     }
     springs = {
-        "lumped.unloading-stiffness": lumped_unloading_stiffness,
-        "lumped.viscous": lumped_viscous,
+        ("lumped.unloading-stiffness", None): lumped_unloading_stiffness,
+        ("lumped.viscous", None): lumped_viscous,
     }
-    below, wrong = [], []
+    below, wrong, e = [], [], inelastic_tables.GRID_E
     for loss, other in (LOSSES, LOSSES[::-1]):
-        against = inelastic_tables.GRID_E, lossy(loss), f", {loss}"
-        below += _rows(models | springs | steps, *against)
-        wrong += _rows(
-            {f"continuum.{other}, tolerance 0.001": functools.partial(lossy, other)}, *against
+        exact = lossy(loss)
+        below += [
+            ([*own, loss], model, e, exact) for own, model in (models | springs | steps).items()
+        ]
+        wrong.append(
+            ([f"continuum.{other}", 1e-3, loss], lambda _, other=other: lossy(other), e, exact)
         )
+    of_elastic = [(own, model, 1.0, continuum()) for own, model in (elastic | steps).items()]
     return {
-        "elastic": _table(_rows(elastic | steps, 1.0, continuum(), "")),
-        "inelastic": _table(below),
-        "wrong_loss": _table(wrong),
+        "elastic": _table(["model", "steps"], of_elastic),
+        "inelastic": _table(["model", "steps", "loss"], below),
+        "wrong_loss": _table(["model", "tolerance", "loss"], wrong),
     }
 
 
-def _rows(models, e, exact, ending):
-    return [(f"{name}, e = {e:g}{ending}", model, e, exact) for name, model in models.items()]
-
-
-def _table(rows):
+def _table(labels, rows):
     columns = [
         f"{kind}_{name} [{unit}]" for name, unit in FIELDS.items() for kind in ("rms", "max")
     ]
-    return table(["curve", "restitution [1]", *columns], _row, rows)
+    return table([*labels, "e", *columns], _row, rows)
 
 
-def _row(curve, model, e, exact):
+def _row(labels, model, e, exact):
     cells = []
     for found, right in zip(model(e), exact, strict=True):
         if found is None:
@@ -84,7 +84,7 @@ def _row(curve, model, e, exact):
         else:
             gap = np.abs(found - right)
             cells += [round(float(np.sqrt(np.mean(gap**2))), 12), round(float(gap.max()), 12)]
-    return [curve, e, *cells]
+    return [*labels, e, *cells]
 
 
 # What errors are measured against ------------------------------------------------------------
@@ -95,14 +95,13 @@ def continuum():
     return _grid("elastic_continuum/rebound_grid")
 
 
-def lossy(loss, e=inelastic_tables.GRID_E):
+def lossy(loss):
     """The continuum of a loss by springs stepped through time, from its table."""
-    curve = f"continuum.{loss}, e = {e:g}"
-    return _grid("inelastic_models/rebound_grid", curve)
+    return _grid("inelastic_models/rebound_grid", f"continuum.{loss}")
 
 
-def _grid(name, curve=None):
-    rows = [row for row in table_files.read(name) if row.get("curve") == curve]
+def _grid(name, model=None):
+    rows = [row for row in table_files.read(name) if row.get("model") == model]
     numbers = np.array([list(row.values())[-4:] for row in rows], float)
     if not np.allclose(numbers[:, 0], INCIDENCES, rtol=0, atol=1e-12):
         raise SystemExit(f"{name}: other incidences")

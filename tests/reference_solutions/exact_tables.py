@@ -39,6 +39,11 @@ INCIDENCE = "incidence [mu v2(0)]"
 ANGLE = "angle [deg]"
 LUMPED_FORCES = ["normal_force [m2 Omega v2(0)]", "friction_force [mu m2 Omega v2(0)]"]
 HERTZ_FORCES = ["normal_force [F2max]", "friction_force [mu F2max]"]
+FIG7_COLUMNS = ["mu", ANGLE, "peak_force [m2 Omega S]"]
+FIG9_COLUMNS = ["mu", "e", ANGLE, "friction_dissipation [m2 S^2/2]"]
+# Columns that name a curve; the lumped model's, and its answers where the printed one has none.
+CURVE = ["model", "variant"]
+SOLVED, UNSOLVED = ["lumped", None], ["printed", "no solution"]
 
 solve = functools.lru_cache(maxsize=None)(high_precision.rebound)
 
@@ -81,12 +86,12 @@ def _contact(x):
         answer = solve(x, BETA, ZETA2, e)
         for event in answer.events:
             kind = KINDS.get(event.kind, event.kind)
-            cells = [f"e = {e:g}", kind, *_numbers(event)]
+            cells = ["lumped", e, kind, *_numbers(event)]
             events.append(functools.partial(list, cells))
         for time in _between(answer.events):
-            instants.append(functools.partial(_instant, f"e = {e:g}", x, e, time))
-    header = ["time [t_c]", *LUMPED_FORCES, VELOCITY]
-    return Table(["curve", "event", *header], events), Table(["curve", *header], instants)
+            instants.append(functools.partial(_instant, x, e, time))
+    labels, header = ["model", "e"], ["time [t_c]", *LUMPED_FORCES, VELOCITY]
+    return Table([*labels, "event", *header], events), Table([*labels, *header], instants)
 
 
 def _numbers(event):
@@ -103,8 +108,8 @@ def _between(events):
     return found
 
 
-def _instant(curve, x, e, time):
-    return [curve, time, *_numbers(state_at(solve(x, BETA, ZETA2, e), e, time))[1:]]
+def _instant(x, e, time):
+    return ["lumped", e, time, *_numbers(state_at(solve(x, BETA, ZETA2, e), e, time))[1:]]
 
 
 def state_at(answer, e, time):
@@ -146,8 +151,8 @@ def _micro_slip():
     for x in CONTACTS.values():
         events = {event.time: event for event in solve(x, BETA, ZETA2, 1.0).events}
         for event in events.values():
-            rows.append(functools.partial(list, [f"lumped, x = {x:g}", *_numbers(event)]))
-    return Table(["curve", "time [t_c]", *HERTZ_FORCES, VELOCITY], rows)
+            rows.append(functools.partial(list, ["lumped", x, *_numbers(event)]))
+    return Table(["model", "x", "time [t_c]", *HERTZ_FORCES, VELOCITY], rows)
 
 
 # Rebound -------------------------------------------------------------------------------------
@@ -158,18 +163,19 @@ def _fig5():
     grid = {0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.25, 3.75, 4.0, 4.5, 5.0, 5.25, 5.5, 5.75}
     grid |= {0.0, 6.0, 6.5, 7.0, 8.0, 10.0, 12.0, 14.0}
     places = []
-    for curve, zeta2 in (("lumped", ZETA2), ("lumped, rubber", RUBBER)):
+    for variant, zeta2 in ((None, ZETA2), ("rubber", RUBBER)):
         beside = map(neighbours, (zeta2, BETA, limit(BETA, zeta2, 1.0)))
-        places += [(curve, x, zeta2, curve == "lumped") for x in sorted(grid.union(*beside))]
+        xs = sorted(grid.union(*beside))
+        places += [(["lumped", variant], x, zeta2, not variant) for x in xs]
     unsolved = (5.85, 6.0, 6.25, 6.5, 6.75, 6.95)
-    places += [("no solution as printed", x, ZETA2, False) for x in unsolved]
-    return table(["curve", INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"], _sphere, places)
+    places += [(UNSOLVED, x, ZETA2, False) for x in unsolved]
+    return table([*CURVE, INCIDENCE, VELOCITY, "spin [mu v2(0)/R]"], _sphere, places)
 
 
 def _sphere(curve, x, zeta2, spins):
     velocity = solve(x, BETA, zeta2, 1.0).velocity
     # A solid sphere: the impulse that changes v1 by 7/2 of the centre's change turns it.
-    return [curve, x, velocity, -mp.mpf(5) / 7 * (x - velocity) if spins else None]
+    return [*curve, x, velocity, -mp.mpf(5) / 7 * (x - velocity) if spins else None]
 
 
 SHOT_ANGLES = (0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 6.1, 6.2, 7.0, 8.0, 10.0, 12.0, 14.0)
@@ -185,13 +191,13 @@ SHOT_HEADER = [
 
 
 def _fig5_experiment():
-    return table(["curve", ANGLE, *SHOT_HEADER], _shot, [(angle,) for angle in SHOT_ANGLES])
+    return table([*CURVE, ANGLE, *SHOT_HEADER], _shot, [(angle,) for angle in SHOT_ANGLES])
 
 
 def _shot(angle):
     x = mp.tan(mp.radians(angle)) / mp.mpf(SHOT["friction"])
     velocity = solve(x, BETA, SHOT["stiffness_ratio"], SHOT["restitution"]).velocity
-    return ["lumped.hysteretic, experiment", angle, *shot_columns(angle, x, velocity)]
+    return ["lumped.hysteretic", "experiment", angle, *shot_columns(angle, x, velocity)]
 
 
 def shot_columns(angle, x, velocity):
@@ -219,17 +225,17 @@ def _fig6():
     for e in (0.0, 0.5, 1.0):
         top = limit(BETA, ZETA2, e)
         grid = {0.25 * k for k in range(33)}.union(*map(neighbours, (ZETA2, BETA, top)))
-        places += [(f"e = {e:g}", x, e, True) for x in sorted(grid)]
+        places += [(SOLVED, x, e, True) for x in sorted(grid)]
         unsolved = [x for x in sorted(grid) if e and top + 0.1 < x < (1 + e) * BETA]
-        places += [(f"no solution as printed, e = {e:g}", x, e, False) for x in unsolved]
+        places += [(UNSOLVED, x, e, False) for x in unsolved]
     force, lost = "peak_friction_force [mu m2 Omega v2(0)]", "dissipation [mu^2 m2 v2(0)^2]"
-    return table(["curve", INCIDENCE, VELOCITY, force, lost], _restitution, places)
+    return table([*CURVE, "e", INCIDENCE, VELOCITY, force, lost], _restitution, places)
 
 
 def _restitution(curve, x, e, whole):
     answer = solve(x, BETA, ZETA2, e)
     more = [answer.peak_friction, answer.dissipation] if whole else [None, None]
-    return [curve, x, answer.velocity, *more]
+    return [*curve, e, x, answer.velocity, *more]
 
 
 # Against the angle of incidence --------------------------------------------------------------
@@ -259,10 +265,10 @@ def fig7_angles(mu):
 def _fig7():
     places = []
     for mu in FRICTIONS:
-        curve, unsolved = f"mu = {mu:g}", inside_angles(mu, *BEYOND_PRINTED)
-        places += [(curve, mu, angle) for angle in fig7_angles(mu)]
-        places += [(f"no solution as printed, {curve}", mu, angle) for angle in unsolved]
-    return table(["curve", ANGLE, "peak_force [m2 Omega S]"], _peak_force, places)
+        unsolved = inside_angles(mu, *BEYOND_PRINTED)
+        places += [(SOLVED, mu, angle) for angle in fig7_angles(mu)]
+        places += [(UNSOLVED, mu, angle) for angle in unsolved]
+    return table([*CURVE, *FIG7_COLUMNS], _peak_force, places)
 
 
 def _at_angle(mu, angle, e=1.0):
@@ -273,7 +279,7 @@ def _at_angle(mu, angle, e=1.0):
 
 def _peak_force(curve, mu, angle):
     scale, answer = _at_angle(mu, angle)
-    return [curve, angle, scale * answer.peak_friction]
+    return [*curve, mu, angle, scale * answer.peak_friction]
 
 
 FIG8_ANGLES = [float(k) for k in (0, 1, 2, 4, 6, 8, 10, 11, 12.28, 12.3, 14, 16, 18, 20, 22, 24)]
@@ -284,7 +290,7 @@ FIG8_ANGLES += [80.0, 85.0]
 def _fig8():
     columns = ["peak_force [N]", "peak_over_mu_normal [1]", "lowest_friction [N]"]
     places = product(("normal", "friction"), FIG8_ANGLES)
-    return table(["curve", ANGLE, *columns], _newtons, places)
+    return table([*CURVE, ANGLE, *columns], _newtons, places)
 
 
 def _hertz():
@@ -299,12 +305,12 @@ def _hertz():
     return mp.mpf(4) / 3 * spring * depth ** (mp.mpf(3) / 2)
 
 
-def _newtons(curve, angle):
-    if curve == "normal":
-        return [curve, angle, _hertz() * mp.cos(mp.radians(angle)), None, None]
+def _newtons(force, angle):
+    if force == "normal":
+        return ["lumped", force, angle, _hertz() * mp.cos(mp.radians(angle)), None, None]
     scale, answer = _at_angle(BALL["friction"], angle)
-    force, peak = scale * _hertz(), answer.peak_friction
-    return [curve, angle, force * peak, peak, force * lowest_friction(answer)]
+    unit, peak = scale * _hertz(), answer.peak_friction
+    return ["lumped", force, angle, unit * peak, peak, unit * lowest_friction(answer)]
 
 
 def lowest_friction(answer):
@@ -343,18 +349,16 @@ def _fig9():
     for (mu, e), unsolved in UNSOLVED_FIG9.items():
         top = limit(BETA, ZETA2, e)
         angles = {float(k) for k in range(5, 90, 5)} | set(threshold_angles(mu, ZETA2, BETA, top))
-        pair = f"mu = {mu:g}, e = {e:g}"
-        places += [(pair, mu, e, angle, True) for angle in sorted(angles)]
-        places += [(f"no solution as printed, {pair}", mu, e, angle, False) for angle in unsolved]
-    columns = ["friction_dissipation [m2 S^2/2]", "friction_work [m2 S^2/2]"]
-    return table(["curve", ANGLE, *columns], _dissipation, places)
+        places += [(SOLVED, mu, e, angle, True) for angle in sorted(angles)]
+        places += [(UNSOLVED, mu, e, angle, False) for angle in unsolved]
+    return table([*CURVE, *FIG9_COLUMNS, "friction_work [m2 S^2/2]"], _dissipation, places)
 
 
 def _dissipation(curve, mu, e, angle, work):
     scale, answer = _at_angle(mu, angle, e)
     share = 2 * scale**2
     spent = share * answer.friction_work if work else None
-    return [curve, angle, share * answer.dissipation, spent]
+    return [*curve, mu, e, angle, share * answer.dissipation, spent]
 
 
 if __name__ == "__main__":

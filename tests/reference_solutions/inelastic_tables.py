@@ -15,6 +15,8 @@ from scipy.optimize import minimize_scalar
 from tests.reference_solutions import inelastic_contact
 from tests.reference_solutions.exact_tables import (
     ANGLE,
+    CURVE,
+    FIG9_COLUMNS,
     INCIDENCE,
     RUBBER,
     SHOT,
@@ -39,9 +41,9 @@ NU = [0.2, 0.5]
 CONTACT_E, CONTACT_NU = 0.6, 0.3
 INCIDENCES = [0.5 * i for i in range(1, 17)]
 # The impacts that beta_0 of a pair is fitted to: up to where, and whether evenly over the angle.
-REACHES = ["to 45 deg", "to 60 deg", "to 0.5 (1 + e) m2/m1", "to 1.5 (1 + e) m2/m1"]
-SPREADS = ["", *REACHES]
-SPREADS += [f"{reach}, by angle" for reach in ["to (1 + e) m2/m1", *REACHES]]
+SPREADS = ["to (1 + e) m2/m1", "to 45 deg", "to 60 deg"]
+SPREADS += ["to 0.5 (1 + e) m2/m1", "to 1.5 (1 + e) m2/m1"]
+SPREADS += [f"{reach}, by angle" for reach in SPREADS]
 # Impacts of a fit, and how many of them are solved; the others lie on chords.
 IMPACTS, SOLVED = 3000, 121
 STEPS, SPRINGS = 1600, 400
@@ -83,31 +85,30 @@ FIG9_ANGLES = {
 def tables():
     """Every table by its name."""
     angles = [(mu, angle) for mu, angles in FIG9_ANGLES.items() for angle in angles]
-    rebound = ["curve", INCIDENCE, VELOCITY]
-    turned_round = "tangential_restitution [1]"
+    rebound = ["model", "e", INCIDENCE, VELOCITY]
+    fitted = ["pair", "model", INCIDENCE, VELOCITY]
+    turned = ["restitution [1]", "tangential_restitution [1]"]
     return {
         "rebound": table(rebound, _at_incidence, product(MODELS, INCIDENCES)),
         "rebound_grid": table([*rebound, *GRID_OUTPUTS], _on_grid, product(CONTINUA, GRID)),
-        "fitted_laws": table(rebound, _fitted, product(FITTED, FITTED_INCIDENCES)),
-        "superball": table(["curve", *PATH], _bounce, [(row,) for row in range(BOUNCES + 2)]),
+        "fitted_laws": table(fitted, _fitted, product(FITTED, FITTED_INCIDENCES)),
+        "superball": table(PATH, _bounce, [(row,) for row in range(BOUNCES + 2)]),
         "tangential_restitution": table(
-            ["curve", "restitution [1]", turned_round], _at_restitution, product(MODELS, NU, E)
+            ["model", "nu", *turned], _at_restitution, product(MODELS, NU, E)
         ),
         "pairs": table(
-            ["curve", "pair", "restitution [1]", turned_round],
-            _of_pair,
-            product(MODELS, _pairs(), SPREADS),
+            [*CURVE, "spread", "pair", *turned], _of_pair, product(MODELS, _pairs(), SPREADS)
         ),
-        "rubber_sphere": table(["curve", INCIDENCE, turned_round], _of_rubber, _rubber_rows()),
+        "rubber_sphere": table([*CURVE, "e", INCIDENCE, turned[1]], _of_rubber, _rubber_rows()),
         "rubber_rms": table(
-            ["curve", "incidence_limit [mu v2(0)]", *RUBBER_RMS],
+            [*CURVE, "incidence_limit [mu v2(0)]", *RUBBER_RMS],
             _rubber_rms,
             product([*MODELS, ELASTIC], RUBBER_LIMITS),
         ),
-        "fig5_experiment": table(["curve", ANGLE, *SHOT_HEADER], _shot, product(CONTINUA, ANGLES)),
+        "fig5_experiment": table([*CURVE, ANGLE, *SHOT_HEADER], _shot, product(CONTINUA, ANGLES)),
         "fig6_rebound": table(rebound, _fig6, product(CONTINUA, FIG6_INCIDENCES)),
         "fig9_dissipation": table(
-            ["curve", ANGLE, "friction_dissipation [m2 S^2/2]"],
+            ["model", *FIG9_COLUMNS],
             _fig9,
             [(model, *place) for model in CONTINUA for place in angles],
         ),
@@ -183,18 +184,18 @@ def extrapolated(model, zeta2, e, x):
 def _on_grid(model, x):
     found = extrapolated(model, ZETA2, GRID_E, x)
     numbers = found.velocity, found.peak_friction, found.work
-    return [f"{model}, e = {GRID_E:g}", x, *(digits(number, 6) for number in numbers)]
+    return [model, GRID_E, x, *(digits(number, 6) for number in numbers)]
 
 
 def _fitted(pair, x):
     model, nu, e = FITTED[pair]
-    return [f"{pair}, continuum", x, digits(extrapolated(model, like(nu), e, x).velocity, 6)]
+    return [pair, "continuum", x, digits(extrapolated(model, like(nu), e, x).velocity, 6)]
 
 
 def _bounce(row):
     places = (6, 9, 6, 9, 4)
     row = ball_path(*[0.0] * BOUNCES)[row]
-    return ["path", *(digits(number, n) for number, n in zip(row, places, strict=True))]
+    return [digits(number, n) for number, n in zip(row, places, strict=True)]
 
 
 @functools.cache
@@ -234,65 +235,65 @@ def _shot(model, angle):
     x = mp.tan(mp.radians(angle)) / mp.mpf(SHOT["friction"])
     w = extrapolated(model, SHOT["stiffness_ratio"], SHOT["restitution"], x).velocity
     first, *columns = shot_columns(angle, x, mp.mpf(float(w)))
-    return [f"{model}, experiment", angle, first, *(digits(c, 6) for c in columns)]
+    return [model, "experiment", angle, first, *(digits(c, 6) for c in columns)]
 
 
 def _fig6(model, x):
     w = extrapolated(model, ZETA2, FIGURES_E, x).velocity
-    return [f"{model}, e = {FIGURES_E:g}", x, digits(w, 6)]
+    return [model, FIGURES_E, x, digits(w, 6)]
 
 
 def _fig9(model, mu, angle):
     theta = np.radians(angle)
     work = extrapolated(model, ZETA2, FIGURES_E, np.tan(theta) / mu).work
     lost = 2 * (mu * np.cos(theta)) ** 2 * work
-    return [f"{model}, mu = {mu:g}, e = {FIGURES_E:g}", angle, digits(lost, 6)]
+    return [model, mu, FIGURES_E, angle, digits(lost, 6)]
 
 
 def _at_incidence(model, x):
     w = velocities(model, [x], like(CONTACT_NU), CONTACT_E)[0]
-    return [f"{model}, e = {CONTACT_E:g}", x, round(float(w), 5)]
+    return [model, CONTACT_E, x, round(float(w), 5)]
 
 
 def _at_restitution(model, nu, e):
-    return [f"{model}, nu = {nu:g}", e, round(slope(model, like(nu), e), 5)]
+    return [model, nu, e, round(slope(model, like(nu), e), 5)]
 
 
 def _of_pair(model, pair, spread):
     row = _pairs()[pair]
     e = float(row["restitution [1]"])
-    words = f"{row['friction [1]']}: {spread}" if spread else ""
-    name = f"{model}, pairs, {spread}" if spread else f"{model}, pairs"
-    return [name, pair, e, round(slope(model, _ratio(pair), e, words), 5)]
+    found = slope(model, _ratio(pair), e, f"{row['friction [1]']}: {spread}")
+    return [model, "pairs", spread, pair, e, round(found, 5)]
 
 
 def _rubber_rows():
-    """Curve, model, incidence and restitution of every row on the rubber sphere.
+    """Model, variant and e, then incidence and restitution of every row on the rubber sphere.
 
     In place of the restitution, what a half of the measurement says; of this there is no model.
     """
     rows = [
-        (half, "", x, said[1 + place])
+        ("measured", half, None, x, said[1 + place])
         for place, half in enumerate(RUBBER_ALONE)
         for x, _, said in _rubber_impacts()
     ]
     for model in [*MODELS, ELASTIC]:
-        rows += [(f"{model}, impacts", model, x, e) for x, e, _ in _rubber_impacts()]
+        rows += [(model, "impacts", None, x, e) for x, e, _ in _rubber_impacts()]
         if model != ELASTIC:
-            rows += [(f"{model}, stated", model, x, e) for x, e in _rubber_stated()]
+            rows += [(model, "stated", None, x, e) for x, e in _rubber_stated()]
         e = 1.0 if model == ELASTIC else RUBBER_E
-        rows += [(f"{model}, e = {e:g}", model, x, e) for x in RUBBER_INCIDENCES]
+        rows += [(model, None, e, x, e) for x in RUBBER_INCIDENCES]
     return rows
 
 
-def _of_rubber(curve, model, x, e):
-    return [curve, x, digits(turned_round(model, x, e) if model else e, 5)]
+def _of_rubber(model, variant, own_e, x, e):
+    share = e if model == "measured" else turned_round(model, x, e)
+    return [model, variant, own_e, x, digits(share, 5)]
 
 
 def _rubber_rms(model, limit):
     near = [(turned_round(model, x, e), said) for x, e, said in _rubber_impacts() if x <= limit]
     off = np.array([e_t - np.array(said) for e_t, said in near])
-    return [f"{model}, rms", limit, *(digits(rms, 5) for rms in np.sqrt(np.mean(off**2, axis=0)))]
+    return [model, "rms", limit, *(digits(rms, 5) for rms in np.sqrt(np.mean(off**2, axis=0)))]
 
 
 @functools.cache

@@ -13,14 +13,7 @@ import sys
 from mpmath import mp
 
 from tests.reference_solutions import exact_tables, table_files
-from tests.reference_solutions.exact_tables import (
-    ANGLE,
-    BETA,
-    INCIDENCE,
-    VELOCITY,
-    ZETA2,
-    inside_angles,
-)
+from tests.reference_solutions.exact_tables import BETA, INCIDENCE, VELOCITY, ZETA2, inside_angles
 from tests.reference_solutions.table_files import table
 
 # Offset from the start of stick at which |F1| < mu F2 surely, in units of 1/Omega: the two are
@@ -41,11 +34,11 @@ def tables():
 def _fig6():
     """From 3 to beta at e = 0.5 the last slip goes forward, and the paper has it backward."""
     incidences = (3.05, 3.1, 3.15, 3.2, 3.25, 3.3, 3.35, 3.4, 3.45)
-    return table(["curve", INCIDENCE, VELOCITY], _rebound, [(x, 0.5) for x in incidences])
+    return table(["model", "e", INCIDENCE, VELOCITY], _rebound, [(x, 0.5) for x in incidences])
 
 
 def _rebound(x, e):
-    return [f"as printed, e = {e:g}", x, impact(x, e).velocity]
+    return ["printed", e, x, impact(x, e).velocity]
 
 
 def _fig7():
@@ -55,13 +48,13 @@ def _fig7():
         for mu in exact_tables.FRICTIONS
         for angle in inside_angles(mu, 3.6, 4.0, 4.4, 4.8, 5.2, 5.5, 5.7)
     ]
-    return table(["curve", ANGLE, "peak_force [m2 Omega S]"], _peak_force, places)
+    return table(["model", *exact_tables.FIG7_COLUMNS], _peak_force, places)
 
 
 def _peak_force(mu, angle):
     theta = mp.radians(angle)
     printed = impact(mp.tan(theta) / mp.mpf(mu), 1.0)
-    return [f"as printed, mu = {mu:g}", angle, mp.mpf(mu) * mp.cos(theta) * printed.peak]
+    return ["printed", mu, angle, mp.mpf(mu) * mp.cos(theta) * printed.peak]
 
 
 PRINTED_FIG9 = {
@@ -77,7 +70,7 @@ PRINTED_FIG9 = {
 
 def _fig9():
     places = [(*pair, angle) for pair, angles in PRINTED_FIG9.items() for angle in angles]
-    return table(["curve", ANGLE, "friction_dissipation [m2 S^2/2]"], _dissipation, places)
+    return table(["model", *exact_tables.FIG9_COLUMNS], _dissipation, places)
 
 
 def _dissipation(mu, e, angle):
@@ -85,7 +78,7 @@ def _dissipation(mu, e, angle):
     lost = impact(mp.tan(theta) / mp.mpf(mu), e).dissipation
     # 2 D1/(mu^2 m2 v2(0)^2) to 2 D1/(m2 S^2)
     scale = (mp.mpf(mu) * mp.cos(theta)) ** 2
-    return [f"as printed, mu = {mu:g}, e = {e:g}", angle, scale * lost]
+    return ["printed", mu, e, angle, scale * lost]
 
 
 class Printed:

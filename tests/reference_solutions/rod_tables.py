@@ -40,33 +40,32 @@ FORCES = ["normal_force [m2 Omega v2(0)]", "friction_force [m2 Omega v2(0)]"]
 
 def tables():
     """All tables, `{name: Table}`."""
-    laws, rebound = ("", "rigid", "rigid, Newton"), []
-    for ratio, law in product(RATIOS, laws):
-        solve = functools.partial(_rigid, law) if law else _compliant
+    solvers = _compliant, functools.partial(_rigid, None), functools.partial(_rigid, "Newton")
+    rebound, events, instants = [], [], []
+    for ratio, solve in product(RATIOS, solvers):
         rebound += [functools.partial(solve, ratio, tilt) for tilt in TILTS]
     columns = [*VELOCITIES, "kinetic_energy [K0]", "jams [1]", *ENERGIES]
     header = ["time [1/Omega]", *FORCES, *VELOCITIES]
-    events, instants = [], []
-    for curve in ("contact", "contact, mu = 0"):
+    for mu in (FRICTION, 0.0):
         # As many rows as `followed` has: SciPy is not asked before a row is.
-        count = len(EVENT_ROWS[curve])
-        events += [functools.partial(_event, curve, row) for row in range(count)]
-        instants += [functools.partial(_instant, curve, time) for time in INSTANTS[curve]]
+        count = len(EVENT_ROWS[mu])
+        events += [functools.partial(_event, mu, row) for row in range(count)]
+        instants += [functools.partial(_instant, mu, time) for time in INSTANTS[mu]]
     return {
-        "rebound": Table(["curve", "tilt [deg]", *columns], rebound),
-        "contact_events": Table(["curve", "event", *header], events),
-        "contact_instants": Table(["curve", *header], instants),
+        "rebound": Table(["model", "variant", "velocity_ratio", "tilt [deg]", *columns], rebound),
+        "contact_events": Table(["variant", "mu", "event", *header], events),
+        "contact_instants": Table(["variant", "mu", *header], instants),
     }
 
 
-# What is expected of the contacts that are followed; `followed` refuses others.
+# What is expected of the contacts that are followed, by friction; `followed` refuses others.
 EVENT_ROWS = {
-    "contact": ("slip", "stick", "maximum compression", "slip", "separation"),
-    "contact, mu = 0": ("slip", "maximum compression", "separation"),
+    FRICTION: ("slip", "stick", "maximum compression", "slip", "separation"),
+    0.0: ("slip", "maximum compression", "separation"),
 }
 INSTANTS = {
-    "contact": tuple(round(0.25 * k, 2) for k in range(1, 21)),
-    "contact, mu = 0": tuple(round(0.25 * k, 2) for k in range(1, 12)),
+    FRICTION: tuple(round(0.25 * k, 2) for k in range(1, 21)),
+    0.0: tuple(round(0.25 * k, 2) for k in range(1, 12)),
 }
 
 
@@ -109,13 +108,12 @@ def _compliant(ratio, tilt):
     work = contact.friction_work / before
     jams = any(rod.jams(phase[2]) for phase in contact.phases if phase[2])
     numbers = [v1, -v2, left, jams, 1 - left, work, hysteresis, work + hysteresis]
-    return [f"v1/v2 = {ratio:g}", tilt, *_rounded(numbers)]
+    return ["lumped", None, ratio, tilt, *_rounded(numbers)]
 
 
 @functools.cache
-def followed(curve):
+def followed(friction):
     """The contact that is followed through, with all its phases."""
-    friction = FRICTION if curve == "contact" else 0.0
     rod = Rod(FOLLOWED["tilt"])
     contact = Contact(FOLLOWED["ratio"], -1.0, rod.body, friction, RESTITUTION, ZETA2, 1.0)
     return contact.run()
@@ -131,35 +129,35 @@ def _columns(contact, phase, elapsed):
     return [contact.normal(u2), -contact.tangential(u1, u2), v1, -v2]
 
 
-def _event(curve, row):
-    contact = followed(curve)
+def _event(mu, row):
+    contact = followed(mu)
     names = ["slip", *(EVENTS[phase[-1]] for phase in contact.phases)]
-    if tuple(names) != EVENT_ROWS[curve]:
-        raise SystemExit(f"{curve}: events {names}")
+    if tuple(names) != EVENT_ROWS[mu]:
+        raise SystemExit(f"mu = {mu:g}: events {names}")
     if row == 0:
         phase, elapsed = contact.phases[0], 0.0
     else:
         phase = contact.phases[row - 1]
         elapsed = phase[1].t[-1]
     columns = _columns(contact, phase, elapsed)
-    return [curve, names[row], *_rounded([phase[0] + elapsed, *columns])]
+    return ["contact", mu, names[row], *_rounded([phase[0] + elapsed, *columns])]
 
 
-def _instant(curve, time):
-    contact = followed(curve)
+def _instant(mu, time):
+    contact = followed(mu)
     phase = next(phase for phase in reversed(contact.phases) if phase[0] <= time)
-    return [curve, time, *_rounded(_columns(contact, phase, time - phase[0]))]
+    return ["contact", mu, time, *_rounded(_columns(contact, phase, time - phase[0]))]
 
 
 # Without compliance --------------------------------------------------------------------------
 
 
-def _rigid(law, ratio, tilt):
+def _rigid(variant, ratio, tilt):
     rod = Rod(tilt)
-    v1, v2 = rigid(ratio, rod, kinematic=law == "rigid, Newton")
+    v1, v2 = rigid(ratio, rod, kinematic=variant == "Newton")
     left = rod.energy(v1, v2) / rod.energy(ratio, -1.0)
     numbers = _rounded([v1, -v2, left, rod.jams(1)])
-    return [f"{law}, v1/v2 = {ratio:g}", tilt, *numbers, None, None, None, None]
+    return ["rigid", variant, ratio, tilt, *numbers, None, None, None, None]
 
 
 def rigid(v1, rod, kinematic):

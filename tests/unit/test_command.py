@@ -15,7 +15,7 @@ import pytest
 
 from planarimpact import continuum, export, lumped, models
 from planarimpact.__main__ import main
-from planarimpact.ground import sliding
+from planarimpact.common import sliding
 
 REBOUND = "incidence [mu v2(0)],velocity [mu v2(0)],peak_friction [mu F2max],"
 REBOUND += "dissipation [mu^2 m2 v2(0)^2],regime,{}model,loss"

@@ -14,7 +14,7 @@ settings:
 comparisons:
   "line-{e}":
     each: {e: [0.5, 1]}
-    curve: "e = {e}"
+    curve: {model: lumped, e: "{e}"}
     reference: mine/line
     metric: distance
     reason: a line that is known
@@ -49,6 +49,6 @@ def test_a_good_folder_is_read_and_bytecode_is_none(tmp_path):
         assert list(figures.stated()) == ["fig10"]
         assert figures.values(figures.stated()["fig10"]["settings"])["friction"] == 0.5
         found = figures.comparisons()
-    assert {name: entry["curve"] for name, entry in found.items()} == {
-        "fig10-line-0.5": "e = 0.5", "fig10-line-1": "e = 1",
+    assert {name: entry["curve"]["e"] for name, entry in found.items()} == {
+        "fig10-line-0.5": 0.5, "fig10-line-1": 1,
     }  # fmt: skip

@@ -55,20 +55,20 @@ def test_without_loss_dashpots_change_nothing(law):
     x = np.linspace(0, 8, 41)
     wanted = timestep.rebound(law, x, 3.5, 17 / 14, steps=64).velocity
     for one in (law, law._replace(limited=True)):
-        velocity = timestep.with_dashpots(one, x, 3.5, 14 / 17, 0.0, told=1.0, steps=64)
+        velocity = timestep.with_dashpots(one, x, 3.5, 14 / 17, 0.0, 1.0, steps=64)
         np.testing.assert_allclose(velocity, wanted, atol=1e-12)
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=map(str, LAWS))
 @pytest.mark.parametrize("e", [1.0, 0.3])
 def test_every_law_has_the_restitution_that_is_asked_for(law, e):
-    told = timestep.told_for(law, e)
-    assert timestep.restitution(law, told, 4000) == pytest.approx(e, abs=3e-4)
-    assert timestep.restitution(law, told) == pytest.approx(e, abs=2e-3)
+    given = timestep.input_restitution_for(law, e)
+    assert timestep.restitution(law, given, 4000) == pytest.approx(e, abs=3e-4)
+    assert timestep.restitution(law, given) == pytest.approx(e, abs=2e-3)
     # A contact that cannot pull slides throughout with mu times its normal impulse.
     if law.limited:
-        slides = timestep.with_dashpots(law, np.array([1e3]), 3.5, 1.0, 0.0, told)
-        assert slides == pytest.approx(1e3 - 3.5 * (1 + timestep.restitution(law, told)), abs=1e-9)
+        slides = timestep.with_dashpots(law, np.array([1e3]), 3.5, 1.0, 0.0, given)
+        assert slides == pytest.approx(1e3 - 3.5 * (1 + timestep.restitution(law, given)), abs=1e-9)
 
 
 def linear(lines, yade, wall):
@@ -90,8 +90,8 @@ def linear(lines, yade, wall):
 def lammps(lines, mass, radius):
     """The same in the input of LAMMPS, as functions of the depth, and what it multiplies."""
     words = lines.splitlines()[-1].split()[3:]
-    modulus, told = map(float, words[1:3])
-    logarithm = -math.log(told)
+    modulus, given = map(float, words[1:3])
+    logarithm = -math.log(given)
     damping = logarithm / math.hypot(math.pi, logarithm)
     kt, xt = map(float, words[words.index("tangential") + 2 :][:2])
     if words[0] == "hooke":
@@ -172,7 +172,7 @@ def test_the_lines_have_the_contact_of_the_fit(law):
     """By the loop of each code, a number at a time, in SI units, from the printed numbers."""
     one = found(law, "lossy")
     lines = fit.lines(one, SOFT, **SPHERE)
-    groups = 3.5, one.stiffness, one.damping, one.told
+    groups = 3.5, one.stiffness, one.damping, one.input_restitution
     said = re.findall(r"(?:before|after) +(\S+), (\S+) at x = ([\d.]+)", lines)
     np.testing.assert_allclose(np.array(said, float), (one.error_before, one.error), atol=0.0051)
     places = [7, 30, 60, 90]
@@ -201,10 +201,10 @@ def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law):
 
 
 def stored_overlaps():
-    """Costs in `overlap.csv`, by curve and overlap."""
+    """Costs in `overlap.csv`, by pair, law and friction, and by overlap."""
     with open(ROOT / "data/lammps/overlap.csv", newline="") as file:
         rows = list(csv.reader(file))[1:]
-    return {(curve, float(size)): [*map(float, costs)] for curve, size, *costs in rows}
+    return {(*row[:3], float(row[3])): [*map(float, row[4:])] for row in rows}
 
 
 def speed_to(size, material):
@@ -240,7 +240,7 @@ def test_an_overlap_costs_what_the_lines_say(law, pair, wall):
             assert [float(end) for _, end in said[:2]] == [*overlaps.INCIDENCES]
             most = [float(number) for number, _ in (2 * said[2:] if wall else said[:2])]
             assert np.all(cost <= np.array(most) + 1e-9), (size, mu)
-            measured = stored_overlaps().get((f"{pair}, {law}, mu = {mu:g}", size))
+            measured = stored_overlaps().get((pair, law, f"{mu:g}", size))
             assert wall or measured is None or cost == pytest.approx(measured, abs=2e-4)
         assert wall or size != 0.01 or spinning.max() > 2 * off.max()
 
@@ -280,7 +280,7 @@ MOVES = {"lammps-hertz-mindlin": 0.003, "lammps-hooke": 0.03, "mercurydpm": 0.03
 @pytest.mark.parametrize("pair", ["steel", "polyurethane"])
 def test_the_stated_error_holds_wherever_in_a_step_contact_begins(law, pair):
     one = found(law, pair)
-    groups = 3.5, one.stiffness, one.damping, one.told
+    groups = 3.5, one.stiffness, one.damping, one.input_restitution
     random = np.random.default_rng(3).uniform(size=10)
     end = one.incidence[-1]
     x = np.append(one.incidence, 2 * end)  # there the continuum slides throughout
@@ -306,19 +306,19 @@ def test_lammps_answers_so_again():
     with open(ROOT / "data/lammps/rebound.csv", newline="") as file:
         rows = list(csv.reader(file))[1:]
     for stored, now in zip(rows, measure().rows(**measure().settings()), strict=True):
-        assert stored[:2] == now[:2] and float(stored[2]) == pytest.approx(float(now[2]), abs=5e-4)
+        assert stored[:4] == now[:4] and float(stored[4]) == pytest.approx(float(now[4]), abs=5e-4)
     measured = measure().overlap_rows(**measure().settings())
-    for stored, (curve, *now) in zip(stored_overlaps().items(), measured, strict=True):
-        size, *costs = map(float, now)
-        assert stored[0] == (curve, size) and stored[1] == pytest.approx(costs, abs=1e-3)
+    for stored, now in zip(stored_overlaps().items(), measured, strict=True):
+        size, *costs = map(float, now[3:])
+        assert stored[0] == (*now[:3], size) and stored[1] == pytest.approx(costs, abs=1e-3)
 
 
 def test_the_nearest_is_the_nearest():
     one = found("lammps-hooke", "steel")
     law = LAWS["lammps-hooke", "linear_history"]
 
-    def rms(stiffness, damping):
-        velocity = timestep.with_dashpots(law, one.incidence, 3.5, stiffness, damping, one.told)
+    def rms(*numbers):
+        velocity = timestep.with_dashpots(law, one.incidence, 3.5, *numbers, one.input_restitution)
         return float(np.sqrt(np.mean((velocity - one.continuum) ** 2)))
 
     best = rms(one.stiffness, one.damping)

@@ -2,9 +2,8 @@
 
 import pytest
 
-from stronge1994 import csv_tables, gate
+from stronge1994 import gate, tables, verdict_table
 from stronge1994.ledger import outcome
-from stronge1994.verdict_tables import verdict_table
 
 VERDICT = {
     **dict.fromkeys(verdict_table.COLUMNS, ""),
@@ -34,19 +33,19 @@ def test_a_row_that_fails_or_is_missing_is_a_fault(changes, fault):
 
 @pytest.fixture
 def words(tmp_path, monkeypatch):
-    """Function: last words of a run that judges two figures and the ledger, or a part of it."""
+    """Function: the summary of a run that judges two figures and the ledger, or a part of it."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "results").mkdir()
-    csv_tables.write_table(gate.LEDGER, [ENTRY], outcome.COLUMNS)
+    tables.write_rows(gate.LEDGER, [ENTRY], outcome.COLUMNS)
 
-    def told(verdict="agrees", tables=2, failed=None, passed=(), config=(), whole=True):
+    def told(verdict="agrees", judged=2, failed=None, passed=(), config=(), whole=True):
         rows = [VERDICT | {"verdict": verdict, "comparison": f"row-{i}"} for i in range(10)]
         for i in range(2):
-            csv_tables.write_table(f"{i}.csv", rows[5 * i :][:5], verdict_table.COLUMNS)
-        names, paths = [row["comparison"] for row in rows], [f"{i}.csv" for i in range(tables)]
+            tables.write_rows(f"{i}.csv", rows[5 * i :][:5], verdict_table.COLUMNS)
+        names, paths = [row["comparison"] for row in rows], [f"{i}.csv" for i in range(judged)]
         logs, stopped = {job: f"{job}.log" for job in failed or ()}, failed is not None
         entries = ["eq-25"] if whole else []
-        return gate.last_words(paths, names[: 5 * tables], entries, logs, passed, stopped, config)
+        return gate.summary(paths, names[: 5 * judged], entries, logs, passed, stopped, config)
 
     return told
 
@@ -56,7 +55,7 @@ def test_a_passed_run_says_where_to_look_and_what_next(words):
     assert "beside others: 10 agrees" in said and "1 wrong" in said and "PASSED." in said
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in said
-    said = words(passed=["paper"], tables=1, whole=False)
+    said = words(passed=["paper"], judged=1, whole=False)
     assert "row-4" in said and "No comparison fails" in said and "PASSED" not in said
 
 
@@ -70,10 +69,10 @@ def test_a_failed_run_names_its_rows_last_and_repeats_the_config(words):
 
 
 def test_a_run_that_stopped_names_its_jobs_and_what_was_judged(words):
-    said = words(tables=1, failed=["curves fig9"], passed=["fig6"], whole=False)
+    said = words(judged=1, failed=["curves fig9"], passed=["fig6"], whole=False)
     assert "failed: curves fig9 (log: curves fig9.log)" in said and "row-4" in said
     assert "No comparison fails" not in said
-    nothing = words(tables=0, failed=[], whole=False)
+    nothing = words(judged=0, failed=[], whole=False)
     assert "row-" not in nothing
     for told in (said, nothing):
         assert "PASSED" not in told and "what was finished is kept" in " ".join(told.split())

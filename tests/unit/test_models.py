@@ -70,7 +70,7 @@ def test_the_range_of_restitution_is_enforced(model):
     for e in (low, high):
         assert np.isfinite(solve(model, 2.0, 3.0, 1.3, e).velocity)
     for e in (low - 0.1, high + 0.1, float(np.nextafter(high, 2))):
-        with pytest.raises(InputError, match=f"restitution = {e!r}: allowed"):
+        with pytest.raises(InputError, match=f"restitution = {e!r}: (allowed|below)"):
             solve(model, 2.0, 3.0, 1.3, e)
 
 

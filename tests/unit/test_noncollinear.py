@@ -8,7 +8,7 @@ import pytest
 
 from planarimpact import Regime, noncollinear
 from planarimpact.bodies import Motion
-from planarimpact.ground.checks import ConvergenceError
+from planarimpact.common.checks import ConvergenceError
 from planarimpact.noncollinear import InverseMass, rigid, solver
 
 paper_rebound = partial(noncollinear.rebound, loss="hysteretic")

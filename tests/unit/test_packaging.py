@@ -121,7 +121,7 @@ def test_the_container_runs_the_main_command():
     assert " && ".join([*steps[:-1], " ".join(json.loads(steps[-1]))]) == command
 
 
-def test_the_import_is_quick_and_has_all_rooms():
+def test_the_import_is_quick_and_has_all_modules():
     """Of sources that are not installed, too."""
     code = (
         "import sys, planarimpact; assert not {'scipy', 'pandas', 'pyarrow'} & set(sys.modules);"
@@ -138,11 +138,11 @@ def test_every_function_that_the_package_recommends_has_an_example():
         path = ROOT / "src/planarimpact" / name.replace(".", "/")
         if not path.is_dir() and not path.with_suffix(".py").is_file():
             continue
-        room = importlib.import_module(f"planarimpact.{name}")
-        stated = getattr(room, "__all__", ())
-        for each in stated or [each for each in vars(room) if each[0] != "_"]:
-            function = getattr(room, each)
-            if inspect.isroutine(function) and (stated or function.__module__ == room.__name__):
+        module = importlib.import_module(f"planarimpact.{name}")
+        stated = getattr(module, "__all__", ())
+        for each in stated or [each for each in vars(module) if each[0] != "_"]:
+            function = getattr(module, each)
+            if inspect.isroutine(function) and (stated or function.__module__ == module.__name__):
                 functions += 1
                 assert "\nExamples\n---" in inspect.getdoc(function), f"{name}.{each}"
     assert functions > 15

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stronge1994 import reference_data
-from stronge1994.judging import points
+from stronge1994.judging import comparisons
 from stronge1994.settings import config as configuration
 from tests.workflow.project import config, sources
 
@@ -20,7 +20,7 @@ def read(folder, text):
     """x and y of a digitised series that holds this text."""
     path = folder / "mine.csv"
     path.write_text(text, encoding="utf-8")
-    found = reference_data.arrays({"kind": "digitised", "path": str(path), **AXES})
+    found = reference_data.Series(kind="digitised", path=str(path), **AXES).points()
     return list(zip(found[X], found[Y], strict=True))
 
 
@@ -60,9 +60,8 @@ def test_a_merge_may_be_overridden_and_merged_again(tmp_path):
 
 
 def test_a_sigma_may_be_a_hundredth_of_the_range_and_a_measured_one_larger():
-    axis = {"range": [0, 10], "sigma": 0.1}
-    reference_data._refuse_axis("x", axis, "digitised")
-    reference_data._refuse_axis("x", axis | {"sigma": 5}, "measured")
+    for sigma, kind in ((0.1, "digitised"), (5, "measured")):
+        reference_data._refuse_axis("x", reference_data.Axis("x", "1", sigma, (0, 10)), kind)
 
 
 SLIDING = "chung_ooi2011/rebound"
@@ -76,10 +75,11 @@ def judged(reference):
 
 def test_sigmas_do_not_come_from_the_points_they_judge():
     """The velocity of the finite elements: from points that nothing looks at."""
-    limits = points.limits_of_regimes(3.5, 1.2143, 1.0)
+    limits = comparisons.limits_of_regimes(3.5, 1.2143, 1.0)
     sheet = sources()["chung_ooi2011"]["series"]["rebound"]
-    columns = reference_data.arrays(sheet)
-    x, w = (columns[reference_data.column_name(sheet[axis])] for axis in "xy")
+    series = reference_data.Series(**sheet)
+    points = series.points()
+    x, w = points[series.x.name], points[series.y.name]
     off = (w - (x - 7.0))[x > limits[1]]
     assert sheet["x"]["sigma"] == sheet["y"]["sigma"] == round(np.sqrt(np.mean(off**2) / 2), 3)
     assert {entry["regime"] for entry in judged(SLIDING)} == {"initial stick", "slip and stick"}
@@ -96,9 +96,10 @@ READ_AGAIN = [
 def test_sigmas_are_the_spread_of_readings_of_which_one_is_judged(source, name, near):
     """Readings of one point are at most `near` apart; what only one person read tells nothing."""
     sheet = sources()[source]["series"][name]
-    columns = reference_data.arrays(sheet)
-    reader = columns["digitiser"]
-    xy = np.transpose([columns[reference_data.column_name(sheet[axis])] for axis in "xy"])
+    series = reference_data.Series(**sheet)
+    points = series.points()
+    reader = points["digitiser"]
+    xy = points[[series.x.name, series.y.name]].to_numpy()
     squares, degrees = np.zeros(2), 0
     for point in xy[reader == "kratos"]:
         readings = xy[np.abs(xy[:, 0] - point[0]) < near]

@@ -1,9 +1,9 @@
-"""What each room refuses, in one line that says what is wrong: the tables of tests/refusals.
+"""What each package refuses, in one line that says what is wrong: the tables of tests/refusals.
 
-A folder there is a package, and a table a room of it. A call knows `np`, `tmp_path`, what
-`planarimpact` exports, and the names that the `setup` of its table makes. `error` names the type
-of what is raised, ValueError if it is not there, and `seconds` how long it may take at most, of the
-processor, where too large a task is refused before it starts.
+A folder there has the name of one in src, and a table that of a package in it. A call knows `np`,
+`tmp_path`, what `planarimpact` exports, and the names that the `setup` of its table makes. `error`
+names the type of what is raised, ValueError if it is not there, and `seconds` how long it may take
+at most, of the processor, where too large a task is refused before it starts.
 """
 
 import time

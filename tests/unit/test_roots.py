@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planarimpact.ground import roots
+from planarimpact.common import roots
 
 PLACES = np.array([1e-70, 1e-8, 0.3, 1 - 1e-12, 1.0, 7.0, 1e12])
 

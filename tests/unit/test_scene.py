@@ -1,4 +1,4 @@
-"""Scenes: a row of a table is what `collide` says of it alone; columns, losses, rungs, bad rows."""
+"""Scenes: a row is what `collide` says of it alone; columns, losses, methods, bad rows."""
 
 import re
 
@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from planarimpact import ConvergenceError, InputError, Pair, bodies, collide, scene, spheres
-from planarimpact.collision import model_form, rungs
+from planarimpact.collision import methods, model_form
 from planarimpact.scene import columns, solver
 
 STEEL = {
@@ -55,7 +55,7 @@ def without(row, *names):
 
 
 def every_kind(law=None):
-    """Rows of every kind: rungs, losses, a wall; or with another law than a restitution."""
+    """Rows of every kind: methods, losses, a wall; or with another law than a restitution."""
     kinds = [
         {"restitution": 1.0, "loss": ""},
         {},
@@ -243,20 +243,20 @@ def test_model_form_is_the_distance_of_the_two_continua():
         assert abs(result[FORM] - abs(plastic - viscous)) <= 0.011 * UNIT
 
 
-# Rungs, and what is said of them.
+# Methods, and what is said of them.
 
-TABLED, TOO_COARSE, NOT_COVERED = (why for _, why in rungs.CONTINUUM_WAYS)
+TABLED, TOO_COARSE, NOT_COVERED = (why for _, why in methods.CONTINUUM_WAYS)
 
 
 def explained(rows, tolerance, loss=None):
-    """Counts of impacts by rung, and why, as `explain` says."""
+    """Counts of impacts by method, and why, as `explain` says."""
     remembered = scene.Solver(tolerance, loss)
     remembered.solve(rows)
     lines = [line for line in remembered.explain().splitlines() if line.startswith("   ")]
     return {tuple(re.split("  +", line.strip())) for line in lines}
 
 
-def test_each_impact_gets_the_first_rung_that_fits():
+def test_each_impact_gets_the_first_method_that_fits():
     """A formula, the table where it covers an impact and is fine enough, else the continuum."""
     e = [0.8, 0.8, 1.0, 0.2, 0.8]
     speeds = [30.0, -0.3, 0.3, 0.3, 0.3]  # the second one makes it head-on

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from planarimpact.ground.files import written
+from planarimpact.common.files import written
 
 
 @pytest.fixture

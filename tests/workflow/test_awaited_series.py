@@ -5,10 +5,11 @@ load and compare as the jobs of a run do; a whole run is in test_run.py.
 """
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from planarimpact import continuum, lumped
-from stronge1994 import csv_tables, reference_data
+from stronge1994 import reference_data, tables
 from stronge1994 import settings as figure_settings
 from stronge1994.figures.fig8 import curves as fig8
 from stronge1994.judging import compare
@@ -38,9 +39,9 @@ def curves(inventory, tmp_path_factory):
     rubber = CONFIG["figures"]["fig5"]["rubber"]["stiffness_ratio"]
     w = lumped.rebound(x, CONFIG["mass_ratio"], rubber, 1.0).velocity
     of_rubber = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": w}
-    csv_tables.write(folder / "fig5.csv", {"lumped, rubber": of_rubber})
+    tables.write(folder / "fig5.csv", tables.curve(of_rubber, "lumped", "rubber"))
     settings = figure_settings.physics(CONFIG, inventory, "fig8") | {"samples": 180}
-    csv_tables.write(folder / "fig8.csv", fig8.curves(**settings))
+    tables.write(folder / "fig8.csv", fig8.curves(**settings))
     return folder
 
 
@@ -53,8 +54,9 @@ def judged(inventory, curves, tmp_path):
         folder = tmp_path / source
         folder.mkdir(exist_ok=True)
         series = inventory[source]["series"][name.split("/")[1]]
-        header = [reference_data.column_name(series[axis]) for axis in "xy"]
-        csv_tables.write_rows(tmp_path / f"{name}.csv", header, zip(x, y, strict=True))
+        known = reference_data.Series(**series)
+        points = pd.DataFrame({known.x.name: x, known.y.name: y})
+        points.to_csv(tmp_path / f"{name}.csv", index=False)
         (folder / "source.yaml").write_text(filled(name, len(x)))
         found = inventory | {source: reference_data.load(folder, schema("source"))}
         references = figure_settings.references(CONFIG, found, figure)
@@ -66,9 +68,9 @@ def judged(inventory, curves, tmp_path):
 
 def line(name, curves):
     """The curve that a series is compared with."""
-    figure, *words = AWAITED[name].split("-")
-    table = csv_tables.read(curves / f"{figure}.csv")
-    return list(table["lumped, rubber" if name == RUBBER else words[0]].values())[:2]
+    table = tables.read(curves / f"{AWAITED[name].split('-')[0]}.csv")
+    own = tables.select(table, **CONFIG["comparisons"][AWAITED[name]]["curve"])
+    return own[list(filter(tables.is_quantity, own))[:2]].to_numpy().T
 
 
 OFF = {

@@ -9,23 +9,22 @@ import pytest
 
 from planarimpact import bodies, lumped, models
 from planarimpact.bodies import Material
-from stronge1994 import csv_tables, curve_names, reference_data
+from stronge1994 import reference_data, tables
 from stronge1994.figures.inelastic import curves as inelastic
-from stronge1994.figures.inelastic import trials as pair_trials
 from stronge1994.figures.rubber_sphere import curves as rubber
 from stronge1994.figures.yielding import curves as yielding
+from stronge1994.names import PAPER
 from tests.reference_solutions import cross_tables, table_files
 from tests.workflow.project import ROOT
 
 BETA_0, MAX = inelastic.BETA_0, "max_velocity [mu v2(0)]"
-PAPER = "lumped.hysteretic, pairs"
 ELEMENTS, CROSS = ROOT / "data/finite_elements", ROOT / "data/cross2014"
 
 
 @pytest.fixture(scope="module")
 def solved(first_run):
     """Function: the curves of a figure."""
-    return lambda figure: csv_tables.read(first_run[0] / f"results/curves/{figure}.csv")
+    return lambda figure: tables.read(first_run[0] / f"results/curves/{figure}.csv")
 
 
 # Pairs of materials
@@ -33,7 +32,7 @@ def solved(first_run):
 
 @pytest.fixture(scope="module")
 def measured(inventory):
-    return reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])
+    return reference_data.Series(**inventory["cornell1999"]["series"]["pairs"]).points()
 
 
 def test_the_fit_has_the_least_squares_of_all():
@@ -72,11 +71,12 @@ def stiffness_ratio(pair, stated, off=""):
 
 def test_the_sigmas_of_a_pair_s_parameters_add_up_in_quadrature(solved, measured, inventory):
     """Shown where angles become incidences by a pair's friction; row `inelastic-pairs` has all."""
-    name = f"{PAPER}, to 45 deg, by angle"
-    curves, stated = solved("inelastic"), inventory["cornell1999"]["parameters"]
-    shifted = [curve_names.shifted(name, pair_trials.PARAMETERS, sign) for sign in (1, -1)]
-    middle, up, down = (curves[curve][BETA_0] for curve in (name, *shifted))
-    np.testing.assert_allclose((up + down) / 2, middle, atol=1e-15)
+    pairs = {"model": PAPER, "variant": "pairs", "spread": "to 45 deg, by angle"}
+    own, stated = (
+        tables.select(solved("inelastic"), **pairs),
+        inventory["cornell1999"]["parameters"],
+    )
+    middle, spread = own[BETA_0], own[tables.sigma_name(BETA_0)]
     columns = [measured[key] for key in ("body", "other", "restitution [1]", "friction [1]")]
     off_by = [measured[f"{key}_uncertainty [1]"] for key in ("restitution", "friction")]
     moduli = [key for key in stated if key.endswith(inelastic.PROPERTIES)]
@@ -88,7 +88,7 @@ def test_the_sigmas_of_a_pair_s_parameters_add_up_in_quadrature(solved, measured
         shifts = np.array([e, mu, zeta2]) - sigmas
         others = np.array([paper_beta_0(*shift) for shift in shifts])
         assert middle[row] == pytest.approx(first, abs=2e-3)
-        assert (up - middle)[row] == pytest.approx(np.linalg.norm(others - first), abs=5e-4)
+        assert spread[row] == pytest.approx(np.linalg.norm(others - first), abs=5e-4)
 
 
 # The rubber sphere
@@ -102,8 +102,8 @@ def test_the_table_of_the_rubber_sphere_is_made_from_the_markers():
 def test_both_halves_of_the_measurement_add_up(solved):
     """Of the impulse of friction on a solid sphere, 2/7 moves the centre and 5/7 turns it."""
     curves = solved("rubber_sphere")
-    velocity, spin = (curves[half][rubber.E_T] for half in rubber.ALONE)
-    e_t = [float(row[rubber.E_T]) for row in csv_tables.read_rows(CROSS / "impacts.csv")]
+    velocity, spin = (tables.select(curves, variant=half)[rubber.E_T] for half in rubber.ALONE)
+    e_t = pd.read_csv(CROSS / "impacts.csv")[rubber.E_T]
     np.testing.assert_allclose(2 / 7 * velocity + 5 / 7 * spin, e_t, rtol=0, atol=0.03)
 
 
@@ -137,10 +137,10 @@ def test_series_and_sigma_follow_from_the_runs_and_every_run_is_planned(make, in
 
 
 def test_every_model_has_an_error_at_every_restitution_that_it_admits(solved):
-    named = solved("trade")
-    assert all(row[MAX][0] > 0 for row in named.values()), "nothing is exact by definition"
-    for end, e in ((", e = 1", 1.0), (", e = 0.8, viscous", 0.8), (", e = 0.8, plastic", 0.8)):
-        found = {row["model"][0] for name, row in named.items() if name.endswith(end)}
+    rows = solved("trade")
+    assert (rows[MAX] > 0).all(), "nothing is exact by definition"
+    for e, loss in ((1.0, ""), (0.8, "viscous"), (0.8, "plastic")):
+        found = {*rows["model"][tables.where(rows, e=e, loss=loss)]}
         admitted = {n for n, m in models.MODELS.items() if m.restitution[0] <= e}
         if e == 1:  # with a loss they are the same, and have its name no more
             lossy = ("lumped.", "continuum.", "spheres.")

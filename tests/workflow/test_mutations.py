@@ -11,18 +11,20 @@ from fnmatch import fnmatchcase
 from pkgutil import resolve_name
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 
 from planarimpact import continuum, lumped
-from stronge1994 import curve_names
+from stronge1994 import names as of_models
 from stronge1994 import settings as figure_settings
-from stronge1994.figures.shared.curves import beside, solving
+from stronge1994 import solving, tables
+from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.judging import compare
 from stronge1994.judging import rows as judging_rows
 from stronge1994.ledger import checking
 from stronge1994.settings import config as configuration
-from stronge1994.verdict_tables.verdict_table import FAILS
+from stronge1994.verdict_table import fails
 from tests.workflow.project import ROOT, awaited, config, ledger
 
 TABLE = yaml.safe_load((ROOT / "tests/mutations.yaml").read_text(encoding="utf-8"))
@@ -132,12 +134,17 @@ def wrong_columns(curves, changes):
 
     def wrong(where, values):
         fitting = [new for pattern, new in changes.items() if fnmatchcase(where, pattern)]
-        return changed(fitting[0], values, {}) if fitting and values.dtype.kind == "f" else values
+        return changed(fitting[0], values, {}) if fitting else values
 
-    return {
-        curve: {column: wrong(f"{curve}: {column}", values) for column, values in own.items()}
-        for curve, own in curves.items()
-    }
+    def wrong_curve(name, own):
+        columns = list(filter(tables.is_quantity, own))
+        new = {column: wrong(f"{name}: {column}", own[column]) for column in columns}
+        for column, sigma in ((column, tables.sigma_name(column)) for column in columns):
+            if sigma in columns:  # what the fault makes of a parameter that is off by its sigma
+                new[sigma] = wrong(f"{name}: {column}", own[column] + own[sigma]) - new[column]
+        return own.assign(**new)
+
+    return pd.concat(wrong_curve(*one) for one in curves.groupby("curve", sort=False))
 
 
 @pytest.fixture(scope="module")
@@ -166,7 +173,7 @@ def judged(inventory, monkeypatch):
         references = figure_settings.references(CONFIG, inventory, figure)
         with np.errstate(over="ignore"):  # distances of the largest numbers of `stability`
             rows = compare(figure, "", entries, references, CONFIG["significance"])
-        return {row["comparison"] for row in rows if row["verdict"] in FAILS and row["points"]}
+        return {row["comparison"] for row in rows if fails(row) and row["points"]}
 
     return failing
 
@@ -189,13 +196,13 @@ def solved(table_of, inventory, monkeypatch):
     Continua take long, and stay as the run made them. So do the printed equations, and curves
     off by one sigma.
     """
-    rebound = beside.rebound
+    rebound = curves_below_one.rebound
 
     def quick(model, *more):
         return rebound("lumped.hysteretic" if model.startswith("continuum") else model, *more)
 
     def curves(figure, fault):
-        monkeypatch.setattr(beside, "rebound", quick)
+        monkeypatch.setattr(curves_below_one, "rebound", quick)
         monkeypatch.setattr(continuum, "rebound", lambda *groups, **_: lumped.rebound(*groups))
         plant(fault, monkeypatch)
         settings = settings_of(figure, inventory)
@@ -203,12 +210,23 @@ def solved(table_of, inventory, monkeypatch):
         settings |= {"as_printed": False} if "as_printed" in settings else {}
         module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
         found = module.curves(**wrong_settings(settings, fault.get("settings", {})))
-        right = table_of(figure)
-        own = [name for name in right if not (curve_names.AS_PRINTED in name or " 1 sigma" in name)]
-        wrong = dict(zip(own, found.values(), strict=True))
-        return right | {name: wrong[name] for name in own if not name.startswith("continuum")}
+        return pd.concat(with_wrong_curves(table_of(figure), found), ignore_index=True)
 
     return curves
+
+
+def with_wrong_curves(right, found):
+    """The right curves of continua and of printed equations; of others the wrong ones in order."""
+    right = right.assign(shifted=right.get("shifted", ""))
+    kept = (right["model"] == of_models.PRINTED) | (right["shifted"] != "")
+    yield right[kept]
+    both = (table.groupby("curve", sort=False) for table in (right[~kept], found))
+    for (_, own), (_, wrong) in zip(*both, strict=True):
+        numbers = own.select_dtypes("number")
+        keys = [*tables.KEYS, *(key for key in numbers if not tables.is_quantity(key)), "shifted"]
+        model, variant = own[["model", "variant"]].iloc[0]
+        is_continuum = model.startswith("continuum") and variant != "pushed"
+        yield own if is_continuum else wrong.assign(**{key: own[key].iloc[0] for key in keys})
 
 
 @pytest.mark.parametrize(("figure", "names"), SOLVED.items(), ids=SOLVED)
@@ -252,17 +270,19 @@ def test_claims_in_nature_notice(words, monkeypatch):
 def held(name, curves):
     """Curves and columns of numbers, not all 0, that something independent can hold."""
     free = [entry["columns"] for entry in TABLE["not_held"]]
-    if name.startswith(curve_names.SCENE):  # copies of what the scene was given
-        table = ROOT / f"data/scenes/{name.removeprefix(curve_names.SCENE)}.csv"
+    if name.startswith(of_models.SCENE):  # copies of what the scene was given
+        table = ROOT / f"data/scenes/{name.removeprefix(of_models.SCENE)}.csv"
         given = ["row [1]", *table.read_text(encoding="utf-8").splitlines()[0].split(",")]
         free += [f".*: {re.escape(column)}" for column in given]
-    for curve, columns in curves.items():
-        for column, values in columns.items():
-            # Curves off by a sigma only say how uncertain another one is.
-            is_free = "1 sigma" in curve or any(
+    # Curves off by a sigma, and sigmas, only say how uncertain another curve is.
+    own = curves[curves["shifted"] == ""] if "shifted" in curves else curves
+    for curve, columns in own.groupby("curve", sort=False):
+        for column, values in columns.select_dtypes("number").items():
+            is_free = not ("[" in column or name.startswith(of_models.SCENE))
+            is_free |= "_sigma [" in column or any(
                 re.fullmatch(pattern, f"{name}: {curve}: {column}") for pattern in free
             )
-            if values.dtype.kind == "f" and values.any() and not is_free:
+            if values.any() and not is_free:
                 yield curve, column
 
 
@@ -271,7 +291,8 @@ def held(name, curves):
 def test_no_column_can_be_scaled_or_flipped(name, factor, table_of, judged):
     right, titles, missed = table_of(name), list(figure_settings.comparisons(CONFIG, name)), []
     for curve, column in held(name, right):
-        wrong = right | {curve: right[curve] | {column: factor * right[curve][column]}}
+        own = right["curve"] == curve
+        wrong = right.assign(**{column: right[column].where(~own, factor * right[column])})
         noticed = next((title for title in titles if judged(name, [title], wrong)), None)
         # The one that has noticed this fault is asked first about the next one.
         titles.sort(key=lambda title, noticed=noticed: title != noticed)
@@ -280,16 +301,15 @@ def test_no_column_can_be_scaled_or_flipped(name, factor, table_of, judged):
 
 
 @pytest.mark.parametrize(
-    ("name", "curve", "rows"),
+    ("name", "curve", "row"),
     [
-        ("fig5", "lumped", slice(703, 704)),
-        ("fig6", "e = 0", [300]),
-        ("inelastic", "continuum.viscous, e = 0.6", [37]),
+        ("fig5", {"model": "lumped"}, 703),
+        ("fig6", {"model": "lumped", "e": 0}, 300),
+        ("inelastic", {"model": "continuum.viscous", "e": 0.6}, 37),
     ],
 )
-def test_a_fault_between_the_points_of_reference_is_noticed(name, curve, rows, table_of, judged):
-    curves, column = table_of(name), "velocity [mu v2(0)]"
-    velocity = curves[curve][column].copy()
-    velocity[rows] = -velocity[rows] - 0.1
-    wrong = curves | {curve: curves[curve] | {column: velocity}}
+def test_a_fault_between_the_points_of_reference_is_noticed(name, curve, row, table_of, judged):
+    wrong, column = table_of(name).copy(), "velocity [mu v2(0)]"
+    place = np.flatnonzero(tables.where(wrong, **curve, variant=""))[row]
+    wrong.loc[place, column] = -wrong.loc[place, column] - 0.1
     assert judged(name, [f"{name}-contraction"], wrong)

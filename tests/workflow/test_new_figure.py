@@ -2,7 +2,7 @@
 
 import re
 
-from stronge1994 import csv_tables
+from stronge1994 import tables
 from tests.workflow.project import ROOT
 
 FILE = re.compile(r"^`((?:src|data)/[\w/.]+)`.*?\n\n```\w+\n(.*?)^```", re.M | re.S)
@@ -19,7 +19,7 @@ def test_a_figure_of_the_readme_is_drawn_and_judged_alone(fresh):
         (fresh / path).write_text(content)
     result = fresh.run("fig10")
     assert result.returncode == 0 and "No comparison fails." in result.stdout
-    verdicts = csv_tables.read_rows(fresh / "results/verdicts/fig10.csv")
+    verdicts = tables.read_rows(fresh / "results/verdicts/fig10.csv")
     assert {r["verdict"] for r in verdicts if r["comparison"] == "fig10-line"} == {"right"}
     assert (fresh / "figures/fig10.svg").stat().st_size > 1000
     # Nothing else has to name it: a whole run judges it too.

@@ -139,8 +139,8 @@ def test_every_link_of_the_site_leads_somewhere_in_it(site, figures):
     assert set(pages) > {*BAR, INTERFACE}
     assert INTERFACE in parsed(site / "index.html").links
     assert parsed(site / INTERFACE).bar == [f"../{file}" for file in BAR]
-    rooms = [name for name in planarimpact.__all__ if inspect.ismodule(getattr(planarimpact, name))]
-    assert {f"interface/planarimpact/{room}.html" for room in rooms} < set(pages)
+    names = [name for name in planarimpact.__all__ if inspect.ismodule(getattr(planarimpact, name))]
+    assert {f"interface/planarimpact/{name}.html" for name in names} < set(pages)
     assert dead_links(site, pages) == []
     assert dead_links(figures, [path.name for path in figures.glob("*.html")]) == []
 

@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 
 from planarimpact.__main__ import main
-from stronge1994 import csv_tables, reference_data
-from stronge1994.curve_names import is_of_paper
+from stronge1994 import figure_table, reference_data, tables
+from stronge1994.names import is_of_paper
 from stronge1994.settings import figures
-from stronge1994.verdict_tables import figure_table
 
 ROOT = Path(__file__).parents[2]
 PATHS = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md"))]
@@ -70,7 +69,7 @@ def test_commands_run_as_printed(line, somewhere, capsys):
 def test_the_main_readme_is_short_and_has_the_table_of_the_run(first_run):
     """The command stands within its first 120 words."""
     assert len(MAIN.split("```sh")[0].split()) < 120 and len(MAIN.encode()) <= 7_000
-    rows = csv_tables.read_rows(first_run[0] / "results/verdicts.csv")
+    rows = tables.read_rows(first_run[0] / "results/verdicts.csv")
     table = [row for row in figure_table.of_run(rows) if is_of_paper(row.figure)]
     assert f"```text\n{figure_table.text(table)}\n```" in MAIN
 

@@ -11,19 +11,24 @@ import pytest
 import yaml
 from scipy.special import chdtrc
 
-from stronge1994 import csv_tables, curve_names, reference_data
+from stronge1994 import reference_data, tables, verdict_table
 from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number
 from stronge1994.ledger import finding, outcome
+from stronge1994.names import MODELS
 from stronge1994.pages import note, which_model
 from stronge1994.pages import report as write_report
-from stronge1994.verdict_tables import verdict_table
+from stronge1994.verdict_table import Verdict
 from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat
 from tests.workflow.project import ROOT, config
 
 CONFIG = config()
+
+
+def points_of(inventory, source, series):
+    return reference_data.Series(**inventory[source]["series"][series]).points()
 
 
 def rms(values):
@@ -37,14 +42,14 @@ def pages(first_run):
 
 
 @pytest.fixture(scope="module")
-def tables(first_run):
+def rows_of(first_run):
     """Function: the rows of a table of the run."""
-    return lambda name: csv_tables.read_rows(first_run[0] / f"results/{name}.csv")
+    return lambda name: tables.read_rows(first_run[0] / f"results/{name}.csv")
 
 
 @pytest.fixture(scope="module")
-def numbers(tables):
-    return {row["name"]: float(row["value"]) for row in tables("key_numbers")}
+def numbers(rows_of):
+    return {row["name"]: float(row["value"]) for row in rows_of("key_numbers")}
 
 
 def test_each_is_one_file_that_needs_nothing_else(pages):
@@ -61,24 +66,24 @@ def test_each_is_one_file_that_needs_nothing_else(pages):
         assert "url(" not in styles and "@import" not in styles
 
 
-def test_the_first_words_say_how_it_went_and_what_was_found(pages, tables):
+def test_the_first_words_say_how_it_went_and_what_was_found(pages, rows_of):
     """Each error that changes a result is named."""
     head = pages("report").split('<h2 id="verdicts">')[0]
     first = Page(head).text
     assert first.index("PASSED") < first.rindex("What we found")
     assert "FAILED" not in pages("report")
-    grave = [row["entry"] for row in tables("ledger") if row["grade"] == "changes a result"]
+    grave = [row["entry"] for row in rows_of("ledger") if row["grade"] == "changes a result"]
     assert grave and all(f'<a href="ledger.html#{entry}">' in head for entry in grave)
 
 
 SAID = {"origin of sigma": "sigma_origin", "where": "where", "tolerance": "tolerance_origin"}
 
 
-def test_every_verdict_figure_and_source_is_there(pages, tables, inventory):
+def test_every_verdict_figure_and_source_is_there(pages, rows_of, inventory):
     page, text = Page(pages("report")), pages("sources")
     provenance = Page(text)
     stated_in = provenance.text
-    counts = Counter(row["verdict"] for row in tables("verdicts"))
+    counts = Counter(row["verdict"] for row in rows_of("verdicts"))
     assert all(f"{verdict} {count} " in page.text for verdict, count in counts.items())
     assert {f"tables/curves/{figure}.csv" for figure in CONFIG["figures"]} <= set(page.links)
     for source, stated in inventory.items():
@@ -101,13 +106,13 @@ def test_every_verdict_figure_and_source_is_there(pages, tables, inventory):
 
 
 @pytest.mark.parametrize("name", CONFIG["figures"])
-def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, tables, name):
+def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, rows_of, name):
     text = pages("report")
     shown = re.split("<h[23]", text[text.index(f'<h3 id="{name}">') + 3 :])[0]
     svg = (first_run[0] / f"figures/{name}.svg").read_bytes()
     assert base64.b64encode(svg).decode() in shown
     assert all(kind == w for kind, w in re.findall(r'_(light|dark)\.png">(\w+)<', shown))
-    mine = [row["comparison"] for row in tables("verdicts") if row["figure"] == name]
+    mine = [row["comparison"] for row in rows_of("verdicts") if row["figure"] == name]
     assert re.findall(r'<tr id="([^"]*)"', shown) == mine
     told = pages("sources")
     told = told[told.index(f'<pre id="config-{name}"') :].split("</pre>")[0]
@@ -161,29 +166,29 @@ def test_numbers_of_the_note_are_those_that_the_words_behind_them_mean(numbers):
     marked = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda m: f"«{names[int(m[1])]}»", Page(page).text)
     row_of_table = "pairs.*.chi2» «pairs.*.least» to «pairs.*.most» 4 «pairs.*.without polyurethane"
     row_of_table += ".chi2» «rubber.*.distance» «rubber.*.distance.small» «yielding.*.rms»"
-    assert all(row_of_table.replace("*", model) in marked for model in curve_names.MODELS)
+    assert all(row_of_table.replace("*", model) in marked for model in MODELS)
     for words, named in BEHIND.items():
         found = re.findall(f"«([^«]*)»{words}", marked)
         assert found and all(re.search(named, name) for name in found), (words, found)
 
 
-def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, inventory):
+def test_key_numbers_are_those_of_the_tables(numbers, rows_of, first_run, inventory):
     """Computed once more, from the curves and the verdicts."""
 
     def curves(figure):
-        return csv_tables.read(first_run[0] / f"results/curves/{figure}.csv")
+        return tables.read(first_run[0] / f"results/curves/{figure}.csv")
 
-    verdicts = Counter(row["verdict"] for row in tables("verdicts"))
-    for verdict in verdict_table.ORDER:
+    verdicts = Counter(row["verdict"] for row in rows_of("verdicts"))
+    for verdict in Verdict:
         assert numbers[f"rows.{verdict}"] == verdicts[verdict]
     assert numbers["rows.judged"] == verdicts.total() - verdicts["as before"]
-    ledger = tables("ledger")
+    ledger = rows_of("ledger")
     counts = Counter(row[key] for row in ledger for key in ("verdict", "grade") if row[key])
     assert {name: numbers[f"ledger.{name}"] for name in counts} == counts
     assert numbers["ledger.causes"] == len({row["cause"] for row in ledger} - {""})
-    rows = {row["comparison"]: row for row in tables("verdicts")}
+    rows = {row["comparison"]: row for row in rows_of("verdicts")}
     halved = "the stated sigmas are two sigmas."
-    for model in curve_names.MODELS:
+    for model in MODELS:
         row = rows[f"inelastic-{model}-pairs"]
         assert f"{numbers[f'pairs.{model}.chi2']:.3g}" == row["chi^2"]
         for trial, pairs, sigma in (("", 11, 1), ("without both.", 9, 0), (halved, 11, 0.5)):
@@ -195,41 +200,44 @@ def test_key_numbers_are_those_of_the_tables(numbers, tables, first_run, invento
     assert numbers[f"{paper}.without {soft}"] == pytest.approx(left)
     w, x = "velocity [mu v2(0)]", "incidence [mu v2(0)]"
     fig5 = curves("fig5")
-    gap = np.abs(fig5["lumped"][w] - fig5["continuum"][w])
+    lumped, continuum = (tables.select(fig5, model=model) for model in ("lumped", "continuum"))
+    gap = np.abs(lumped[w] - continuum[w])
     assert numbers["elastic.largest"] == pytest.approx(gap.max(), rel=1e-9)
-    assert numbers["elastic.at"] == pytest.approx(fig5["lumped"][x][gap.argmax()])
-    runs = reference_data.arrays(inventory["finite_elements"]["series"]["spheres"])
+    assert numbers["elastic.at"] == pytest.approx(lumped[x][gap.argmax()])
+    runs = points_of(inventory, "finite_elements", "spheres")
     e = runs["restitution [1]"]
     kept = (runs["friction [1]"] < 0.101) & (e >= 0.45) & (runs["set"] != "calibration")
     near = kept & (e >= 0.62) & (e <= 0.92)
     rubber, yielding = curves("rubber_sphere"), curves("yielding")
-    for model in curve_names.MODELS:
-        off = yielding[f"{model}, runs"][w] - runs[w]
+    for model in MODELS:
+        off = tables.select(yielding, model=model, variant="runs")[w] - runs[w]
         assert numbers[f"yielding.{model}.rms"] == pytest.approx(rms(off[kept]))
         assert numbers[f"yielding.{model}.near.max"] == pytest.approx(abs(off[near]).max())
-        own = rubber[f"{model}, impacts"]
+        own = tables.select(rubber, model=model, variant="impacts")
         share = "tangential_restitution [1]"
         for kind, e_t in (
-            ("distance", reference_data.arrays(inventory["cross2014"]["series"]["impacts"])[share]),
-            ("from_velocity", rubber["velocity alone"][share]),
-            ("from_spin", rubber["spin alone"][share]),
+            ("distance", points_of(inventory, "cross2014", "impacts")[share]),
+            ("from_velocity", tables.select(rubber, variant="velocity alone")[share]),
+            ("from_spin", tables.select(rubber, variant="spin alone")[share]),
         ):
             assert numbers[f"rubber.{model}.{kind}"] == pytest.approx(rms(own[share] - e_t))
             small = (own[share] - e_t)[own[x] <= 2.5]
             assert numbers[f"rubber.{model}.{kind}.small"] == pytest.approx(rms(small))
-    for row in tables("in_nature"):
+    for row in rows_of("in_nature"):
         for model in finding.MODELS:
             assert numbers[f"nature.{row['measure']}.{model}"] == float(row[model])
 
 
 def test_the_note_s_farthest_pairs_are_so(numbers, first_run, inventory):
     assert numbers["pairs.lumped.hysteretic.failed"] == numbers["pairs.spreads"]
-    curves = csv_tables.read(first_run[0] / "results/curves/inelastic.csv")
-    pairs = reference_data.arrays(inventory["cornell1999"]["series"]["pairs"])
+    curves = tables.read(first_run[0] / "results/curves/inelastic.csv")
+    pairs = points_of(inventory, "cornell1999", "pairs")
+    judged = {"variant": "pairs", "spread": inelastic.WHOLE}
     beta_0 = [
-        curves[f"continuum.{loss}, pairs"][inelastic.BETA_0] for loss in ("viscous", "plastic")
+        tables.select(curves, model=f"continuum.{loss}", **judged)[inelastic.BETA_0]
+        for loss in ("viscous", "plastic")
     ]
-    off = np.abs(pairs[inelastic.BETA_0] - beta_0) / pairs[inelastic.SIGMA]
+    off = np.abs(pairs[inelastic.BETA_0].to_numpy() - beta_0) / pairs[inelastic.SIGMA].to_numpy()
     assert pairs["pair"][off.min(axis=0).argmax()] == inelastic.HARD
     assert pairs["pair"][pairs[inelastic.E].argmin()] == inelastic.SOFT
 
@@ -274,24 +282,29 @@ diverges Maw 1976: 16 points, rms 0.036 μv2(0), 2 sigma Cross 2014
 | e = 0.8, plastic loss error up to 0.3 to 0.1 m, 0.05, 3 µs
 | by 0.5 µv2(0) (e = 0.8, plastic; 0.6 if
 | the wrong loss is an error of up to 0.4 µ"""
-MODEL = {"model_10": "m", "max_velocity_10 [mu v2(0)]": "0.05", "whole_time_10 [s]": "3e-6"}
-MODEL |= {"other_loss [mu v2(0)]": "0.4", "input_spread [mu v2(0)]": "0.5"}
-MODEL |= {"input_spread_stick [mu v2(0)]": "0.6", "restitution [1]": "0.8", "loss": "plastic"}
+ANSWER = {"e": 0.8, "loss": "plastic", "batch": 10, "model": "m"}
+ANSWER |= {"max_velocity [mu v2(0)]": "0.05", "whole_time [s]": "3e-6"}
+TRADE = {"max_velocity [mu v2(0)]": [0.4], "input_spread [mu v2(0)]": [0.5]}
+TRADE |= {"input_spread_stick [mu v2(0)]": [0.6]}
+
+
+NO_RESIDUALS = pd.DataFrame(columns=["comparison", "quantity", "at", "distance [sigma]"])
 
 
 def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
     """Comparisons failed, and an entry of the ledger holds no longer."""
     none = dict.fromkeys(outcome.COLUMNS, "") | {"verdict": "wrong"}
-    answers = [MODEL | {"tolerance [mu v2(0)]": allowed} for allowed in ("0.3", "0.1")]
+    answers = pd.DataFrame(ANSWER | {"tolerance [mu v2(0)]": allowed} for allowed in (0.3, 0.1))
+    trade = tables.curve(TRADE, "continuum.viscous", e=0.8, loss="plastic")
     values = {
         "verdicts": VERDICTS,
         "ledger": [none | {"entry": "eq-25", "holds": "no"}, none | {"entry": "a", "holds": "yes"}],
         "figures": {
-            name: write_report.figure(name, b"<svg/>", "Words.", [], VERDICTS, False)
+            name: write_report.figure(name, b"<svg/>", "Words.", NO_RESIDUALS, VERDICTS, False)
             for name in CONFIG["figures"]
         },
         "captions": dict.fromkeys(write_report.SECTIONS, "Words."),
-        "cases": which_model.cases(answers),
+        "cases": which_model.cases(answers, trade),
         "n": {},
         "significance": CONFIG["significance"],
         "run": {"date": "Today", "commit": "abc"},
@@ -314,17 +327,17 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
 
 def test_strips_show_points_by_their_verdicts():
     others = {"question": "beside others", "found": "", "curve": "lumped", "reference": "a/b"}
-    verdicts = {
-        "low": others | {"verdict": "diverges"},
-        "high": others | {"verdict": "agrees"},
-        "corner": others | {"verdict": "wrong", "question": "solved right", "curve": ""},
-    }
+    verdicts = [
+        others | {"comparison": "low", "verdict": "diverges"},
+        others | {"comparison": "high", "verdict": "agrees"},
+        others | {"comparison": "corner", "verdict": "wrong", "curve": "", "reference": "a/c"},
+    ]
     points = {"low": [-1, -3], "high": [2, 0], "corner": [7]}
-    residuals = [
-        {"comparison": name, "quantity": "x [1]", "at": f"{at}", "distance [sigma]": f"{far}"}
+    residuals = pd.DataFrame(
+        {"comparison": name, "quantity": "x [1]", "at": at, "distance [sigma]": far}
         for name, distances in points.items()
         for at, far in enumerate(distances)
-    ]
+    )
     first, second = draw_residuals.draw(draw_residuals.strips(residuals, verdicts)).axes
     drawn = {line.get_marker(): line for line in first.lines if line.get_linestyle() == "None"}
     assert {mark: line.get_ydata().tolist() for mark, line in drawn.items()} == {

@@ -8,11 +8,10 @@ import warnings
 
 import pytest
 
-from planarimpact.ground.checks import ConvergenceError
-from stronge1994 import judging, reference_data
+from planarimpact.common.checks import ConvergenceError
+from stronge1994 import judging, reference_data, solving
 from stronge1994 import settings as figure_settings
 from stronge1994.figures.shared import drawing as drawings
-from stronge1994.figures.shared.curves import solving
 from stronge1994.settings import config as configuration
 from stronge1994.settings import figures
 from tests.workflow.project import ROOT, ledger

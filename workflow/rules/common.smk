@@ -21,7 +21,7 @@ logging.raiseExceptions = False
 shell.prefix("set -euo pipefail; trap '' INT; ")
 import planarimpact
 from stronge1994 import gate, imports, reference_data, settings, versions
-from stronge1994.curve_names import is_of_paper
+from stronge1994.names import is_of_paper
 from stronge1994.ledger import entries
 from stronge1994.settings import config as configuration
 from stronge1994.settings import figures
@@ -49,7 +49,8 @@ try:
         workflow.config_settings.config_args or (),
     )
     SOURCES = reference_data.load_all("data", reference_data.load_yaml("workflow/schemas/source.schema.yaml"))
-    ENTRIES = list(entries.load(LEDGER, reference_data.load_yaml("workflow/schemas/ledger.schema.yaml")))
+    OF_LEDGER = entries.load(LEDGER, reference_data.load_yaml("workflow/schemas/ledger.schema.yaml"))
+    ENTRIES = list(OF_LEDGER)
     configuration.check_config(config, SOURCES, ENTRIES)
     FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
     JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}
@@ -120,7 +121,7 @@ def priority(wildcards):
     return 20 - PAPER.index(name) if name in PAPER else 0
 
 
-def last_words(stopped):
+def summary(stopped):
     """What the run says at its end, by the tables that are up to date then.
 
     Snakemake's graph of jobs tells which. It is no public interface: so Snakemake is pinned.
@@ -133,7 +134,7 @@ def last_words(stopped):
     judged = {name for target in gates for name in targets[target]}
     tables = {name: f"results/verdicts/{name}.csv" for name in JUDGED if name in judged}
     tables = {name: table for name, table in tables.items() if table in done}
-    return gate.last_words(
+    return gate.summary(
         list(tables.values()),
         rows_of(tables),
         ENTRIES if "all" in gates and gate.LEDGER in done else [],

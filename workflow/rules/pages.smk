@@ -13,8 +13,6 @@ rule report:
         versions="results/versions.json",
         ledger="results/ledger.csv",
         in_nature="results/in_nature.csv",
-        trade="results/trade.csv",
-        which_model="results/which_model.csv",
         verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
         residuals=expand("results/residuals/{judged}.csv", judged=FIGURES),
         curves=expand("results/curves/{figure}.csv", figure=FIGURES),
@@ -28,6 +26,7 @@ rule report:
         ledger="figures/ledger.html",
         tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
         verdicts="results/verdicts.csv",
+        which_model="results/which_model.csv",
         numbers="results/key_numbers.csv",
     log:
         "results/logs/report.log",
@@ -42,6 +41,7 @@ rule report:
             "sources": SOURCES,
             "stated": STATED,
             "symbols": reference_data.load_yaml(LEDGER)["symbols"],
+            "impacts": {name: entry["explorer"] for name, entry in OF_LEDGER.items() if "explorer" in entry},
             "rows": rows_of(JUDGED),
             "entries": ENTRIES,
         },
@@ -50,30 +50,12 @@ rule report:
         "../scripts/write_report.py"
 
 
-rule trade_tables:
-    """Error and time of every model as tables."""
-    input:
-        "results/curves/trade.csv",
-    output:
-        table="results/trade.csv",
-        answers="results/which_model.csv",
-    log:
-        "results/logs/trade.log",
-    priority: 1  # a lecture waits for it
-    conda:
-        "../envs/planarimpact.yaml"
-    params:
-        content=digest("workflow/scripts/write_trade.py"),
-    script:
-        "../scripts/write_trade.py"
-
-
 rule lecture:
     """Run one notebook: a lecture that checks the numbers that it states."""
     input:
         versions="results/versions.json",
         notebook="workflow/notebooks/{notebook}.ipynb",
-        tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/trade.csv"),
+        tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/curves/trade.csv"),
         style="workflow/notebooks/lecture.mplstyle",
         page="workflow/report/notebook.html",
         slides="workflow/report/slides.html",
@@ -119,7 +101,6 @@ rule explorer:
 PAGES = [
     *rules.report.output,
     *rules.explorer.output,
-    *rules.trade_tables.output,
     *expand(rules.lecture.output, notebook=NOTEBOOKS),
 ]
 

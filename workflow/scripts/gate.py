@@ -6,11 +6,10 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import csv_tables, gate
-from stronge1994.verdict_tables import verdict_table
+from stronge1994 import gate, tables, verdict_table
 
 table = snakemake.input.get("ledger")
-ledger = csv_tables.read_rows(table) if table else []
+ledger = tables.read_rows(table) if table else []
 verdicts = verdict_table.gather(snakemake.input.verdicts)
 faults = gate.faults(verdicts, ledger, snakemake.params.rows, snakemake.params.get("entries", []))
 if faults:

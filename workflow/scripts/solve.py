@@ -4,7 +4,9 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
-from stronge1994.figures.shared.curves import solving
+from stronge1994 import (
+    one_thread,  # noqa: F401  (one thread: before numpy)
+    solving,
+)
 
 solving.solve(snakemake.wildcards.figure, **snakemake.params.settings, output=snakemake.output[0])

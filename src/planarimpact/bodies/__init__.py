@@ -18,7 +18,7 @@ result is a number or an array of the broadcast shape. Index 1 is tangential, 2 
 | `v1`, `v2` | velocity of the contact point before impact | m/s | v2 above 0 |
 | `friction` | coefficient mu | | above 0 |
 | `speed` | normal speed of approach, v2(0) | m/s | above 0 |
-| `mass` beside a speed or modulus | normal effective mass m2 | kg | above 0 |
+| `mass` with a speed or modulus | normal effective mass m2 | kg | above 0 |
 | `effective_modulus` | E* | Pa | above 0 |
 | `effective_radius` | R | m | above 0 |
 | `restitution` | energetic coefficient e | | 0.022 to 1; in `rebound_motion` 0 to 1 |
@@ -79,9 +79,9 @@ from planarimpact.bodies.restitution import (
 )
 from planarimpact.bodies.restitution import time_unit as time_unit
 from planarimpact.bodies.restitution import unchecked_yield_speed as unchecked_yield_speed
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.checks import checked, finite, not_negative, positive
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.checks import checked, finite, not_negative, positive
 
 __all__ = [
     "COUPLING",

@@ -3,9 +3,9 @@
 import numpy as np
 
 from planarimpact.bodies.quantities import HALF_SPACE, Body, all_positive, fields, in_range, quietly
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.checks import InputError
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.checks import InputError
 
 
 @quietly

@@ -16,9 +16,9 @@ from planarimpact.bodies.quantities import (
     positive_or_infinite,
     quietly,
 )
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.checks import positive
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.checks import positive
 
 
 def _elastic_constants(material: Material, other: Material | None) -> list[tuple[Array, Array]]:

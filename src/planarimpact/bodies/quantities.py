@@ -6,9 +6,9 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.checks import InputError, checked, finite, not_negative, positive
 
 
 class OutOfRange(InputError):

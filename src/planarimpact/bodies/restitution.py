@@ -5,17 +5,17 @@ time, and e falls slowly with speed. A plastic body has a yield pressure: it is 
 yield speed, and then e falls with speed. Each function describes a contact of two spheres by its
 effective mass, modulus and radius, as `contact` returns them.
 
-Symbols beside those of `planarimpact.bodies`: v_y yield speed, and a_y the radius of contact where
-yield begins.
+Symbols in addition to those of `planarimpact.bodies`: v_y yield speed, and a_y the radius of
+contact where yield begins.
 """
 
 import numpy as np
 
 from planarimpact.bodies.materials import hertz_peak_force
 from planarimpact.bodies.quantities import OutOfRange, all_positive, in_range, quietly
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Number
-from planarimpact.ground.checks import checked, not_negative, positive
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Number
+from planarimpact.common.checks import checked, not_negative, positive
 from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, LOSSES, kelvin_voigt, yielding
 
 # Relative rounding error of a relaxation time that `relaxation_time` returns.

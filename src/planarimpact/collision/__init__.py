@@ -2,7 +2,7 @@
 
 `collide` takes vectors and returns vectors. A `Pair` says what the materials do: friction,
 stiffness, and what takes the energy. `scene` solves tables of impacts by the same functions, which
-also decide which model answers (`rungs`): a formula where it is exact, the table of spheres where
+also decide which model answers (`methods`): a formula where it is exact, the table of spheres where
 it covers the impact, or the continuum, solved. `mechanics` has the vectors, `pairs`
 what materials do, `one_impact` one impact, `model_form` what the other loss would change.
 
@@ -30,17 +30,17 @@ from planarimpact.collision.mechanics import (
     problems,
     problems_of_normals,
 )
+from planarimpact.collision.methods import TOLERANCE as TOLERANCE
+from planarimpact.collision.methods import Answers, answers
 from planarimpact.collision.model_form import model_forms
 from planarimpact.collision.pairs import RESTITUTION_FROM as RESTITUTION_FROM
 from planarimpact.collision.pairs import Pair
 from planarimpact.collision.presets import Preset, presets
-from planarimpact.collision.rungs import TOLERANCE as TOLERANCE
-from planarimpact.collision.rungs import Answers, answers
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.checks import InputError
+from planarimpact.common.results import Regime
 from planarimpact.continuum import Unsolved
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.checks import InputError
-from planarimpact.ground.results import Regime
 from planarimpact.normal_impact import LOSSES as LOSSES
 
 __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
@@ -184,7 +184,7 @@ def collide(
 def _collide_arrays(
     pair: Pair, body: Body, other: Body, values: Sequence[ArrayLike], tolerance: float
 ) -> Collision:
-    """As `collide`, for any number of impacts."""
+    """State after any number of impacts, from arrays."""
     names = "normal", "velocity", "spin", "other_velocity", "other_spin"
     vectors = [_vectors(name, value) for name, value in zip(names, values, strict=True)]
     fields = [np.asarray(value, dtype=float) for value in (*body, *other)]
@@ -282,5 +282,5 @@ def _whole(approach: Integers, count: int, shape: tuple[int, ...], values: Any, 
 
 
 def _form(whole: Callable[..., Array], met: Impacts, place: Integers, velocity: Array) -> Array:
-    """Model form of impacts, by rung and velocity at separation."""
+    """Model form of impacts, by method and velocity at separation."""
     return whole(model_forms(met, place, velocity), np.nan)

@@ -12,9 +12,9 @@ import numpy as np
 from planarimpact import bodies, continuum
 from planarimpact.bodies import Body
 from planarimpact.collision.pairs import Pair
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.continuum import inelastic
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, Booleans, Integers
 from planarimpact.normal_impact import yielding
 
 # Restitution at the speed of an impact, by the quantity of a pair that it follows from.

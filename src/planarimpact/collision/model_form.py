@@ -8,10 +8,10 @@ tolerance makes it smaller, only knowledge of the material does.
 import numpy as np
 
 from planarimpact import continuum, spheres
-from planarimpact.collision import rungs
+from planarimpact.collision import methods
 from planarimpact.collision.mechanics import Impacts
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Integers
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, Integers
 
 # Tolerance of the continuum with the other loss, mu v2(0) and v1(0): two digits of the difference
 # suffice.
@@ -21,12 +21,12 @@ TOLERANCE = 1e-2
 def model_forms(impacts: Impacts, place: Integers, velocity: Array) -> Array:
     """How far the velocity of `Answers` would move with the other loss [m/s], NaN if not known."""
     form, unit = np.zeros(impacts.v1.size), impacts.unit
-    viscous = (place == rungs.SLIDING) & (impacts.restitution < 1) & ~impacts.plastic
+    viscous = (place == methods.SLIDING) & (impacts.restitution < 1) & ~impacts.plastic
     form[viscous] = np.nan
     rows = np.flatnonzero(viscous & (impacts.restitution >= continuum.LEAST_RESTITUTION))
     difference = _of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
     form[rows] = np.abs(difference) * unit[rows]
-    losses = np.array([rung.loss or "" for rung in rungs.RUNGS])
+    losses = np.array([method.loss or "" for method in methods.METHODS])
     for loss, other in zip(continuum.LOSSES, reversed(continuum.LOSSES), strict=True):
         rows = np.flatnonzero((losses == loss)[place])
         moved = _velocity(other, impacts.incidence_of(rows), impacts.groups_of(rows))
@@ -42,7 +42,7 @@ def _velocity(loss: str, incidence: Array, groups: tuple[Array, ...]) -> Array:
     rows = np.flatnonzero(~covered)
     if rows.size:
         x, groups = incidence[rows], tuple(group[rows] for group in groups)
-        rebound, solved, _ = rungs.solved(loss, x, groups, TOLERANCE * np.minimum(x, 1.0))
+        rebound, solved, _ = methods.solved(loss, x, groups, TOLERANCE * np.minimum(x, 1.0))
         velocity[rows[solved]] = rebound.velocity
     return velocity
 

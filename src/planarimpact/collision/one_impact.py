@@ -1,6 +1,6 @@
 """One impact in Python's own floats, for event-driven codes: some tens of microseconds.
 
-The physics is that of `mechanics` and `rungs`, in numbers instead of arrays; a test compares them.
+The physics is that of `mechanics` and `methods`, in numbers in place of arrays; a test compares.
 They answer what is left to them here: a bad argument, no approach, no friction, numbers beyond
 `PLAIN_MOST`, and an impact that the table of spheres does not answer within the tolerance.
 """
@@ -15,10 +15,10 @@ import numpy as np
 from planarimpact import bodies, spheres
 from planarimpact.bodies import Body
 from planarimpact.collision.mechanics import cross, dot
+from planarimpact.collision.methods import table_error
 from planarimpact.collision.pairs import PLAIN_LEAST, PLAIN_MOST, Pair
-from planarimpact.collision.rungs import table_error
-from planarimpact.ground import checks
-from planarimpact.ground.results import Regime
+from planarimpact.common import checks
+from planarimpact.common.results import Regime
 from planarimpact.normal_impact import kelvin_voigt, yielding
 from planarimpact.spheres import table
 

@@ -6,13 +6,13 @@ import numpy as np
 
 from planarimpact import bodies, normal_impact
 from planarimpact.bodies import Material
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import LARGEST, SMALLEST, Array, ArrayLike, Booleans
-from planarimpact.ground.checks import InputError
-from planarimpact.normal_impact import LOSSES
+from planarimpact.common import checks
+from planarimpact.common.arrays import LARGEST, SMALLEST, Array, ArrayLike, Booleans
+from planarimpact.common.checks import InputError
+from planarimpact.normal_impact import LOSSES, PLASTIC, VISCOUS
 
-# What says how much energy is lost, and the loss if that says it too: restitution itself, or a
-# property of the materials that gives it at the speed of each impact.
+# What gives the restitution, and the loss that comes with it: the restitution itself, or a property
+# of the materials that gives it at the speed of each impact.
 RESTITUTION_FROM: dict[str, str | None] = {"restitution": None}
 RESTITUTION_FROM |= {law.property: loss for loss, law in normal_impact.LAWS.items()}
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *RESTITUTION_FROM)
@@ -29,7 +29,7 @@ class Pair:
     ----------
     *materials : Material
         Of both bodies; one alone touches a rigid body. Their fields may be arrays. They give the
-        stiffness ratio and the effective modulus, which are the other way to say the same.
+        stiffness ratio and the effective modulus, which may be given in their place.
     friction : array_like
         Coefficient of friction mu, from 0.
     restitution : array_like, optional
@@ -40,7 +40,7 @@ class Pair:
         [Pa], of materials that yield, see `bodies.plastic_restitution`: e follows from the speed.
     loss : str or array_like of str, optional
         What takes the energy where `restitution` is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield). An empty text, None or NaN in an array says none.
+        "plastic" (metals that yield). An empty text, None or NaN in an array means none.
     stiffness_ratio : array_like, optional
         zeta^2, normal over tangential stiffness, where there are no materials.
     effective_modulus : array_like, optional
@@ -57,13 +57,13 @@ class Pair:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, the loss is not said where it is needed, a pair
-        says its restitution in two ways or in none, or shapes do not broadcast.
+        If an argument is not a number in its range, the loss is missing where it is needed, a pair
+        has its restitution in two ways or in none, or shapes do not broadcast.
 
     Notes
     -----
     In a table some pairs may have a restitution, and others a relaxation time or a yield pressure:
-    NaN stands where a pair does not have it. `table[i, j]` is a pair or an array of pairs.
+    what a pair does not have is NaN. `table[i, j]` is a pair or an array of pairs.
 
     Examples
     --------
@@ -79,8 +79,7 @@ class Pair:
     >>> Pair(steel, friction=0.1, restitution=0.8)
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.8: allowed are numbers equal to 1, unless loss says \
-what takes the energy: viscous, plastic
+    planarimpact.InputError: restitution = 0.8: below 1 it needs a loss: choose viscous, plastic
     """
 
     friction: Array
@@ -123,7 +122,7 @@ what takes the energy: viscous, plastic
                 "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
                 "the materials"
             )
-        plastic = (codes == LOSSES.index("plastic")) | yields
+        plastic = (codes == LOSSES.index(PLASTIC)) | yields
         # Copies: what the caller does with its arrays later does not change the pair.
         _fill(self, *(np.array(arrays[name]) for name in _FIELDS), plastic)
 
@@ -154,7 +153,7 @@ what takes the energy: viscous, plastic
         numbers = {name: float(getattr(self, name)) for name in _FIELDS}
         del numbers["effective_modulus"]
         shown = [f"{k} = {v:.4g}" for k, v in numbers.items() if not np.isnan(v)]
-        loss = [] if numbers["restitution"] == 1 else [LOSSES[int(self.plastic)]]
+        loss = [] if numbers["restitution"] == 1 else [PLASTIC if self.plastic else VISCOUS]
         return f"<Pair: {', '.join(shown + loss)}>"
 
 
@@ -206,7 +205,7 @@ def _stiffness(
 
 
 def _refuse_other_laws(arrays: dict[str, Array]) -> None:
-    """Refuse pairs that say how much energy is lost in two ways, or in none."""
+    """Refuse pairs that give the restitution in two ways, or in none."""
     said = np.sum([~np.isnan(arrays[name]) for name in RESTITUTION_FROM], axis=0)
     if (said != 1).any():
         count = int(np.atleast_1d(said)[np.atleast_1d(said) != 1][0])
@@ -219,10 +218,8 @@ def _refuse_loss(arrays: dict[str, Array], codes: Array) -> None:
     restitution = arrays["restitution"]
     missing = (restitution < 1) & (codes < 0)
     if missing.any():
-        checks.lossless(np.where(missing, restitution, 1.0), LOSSES)
+        checks.require_loss(np.where(missing, restitution, 1.0), LOSSES)
     for name, loss in RESTITUTION_FROM.items():
         if loss and (~np.isnan(arrays[name]) & (codes >= 0) & (codes != LOSSES.index(loss))).any():
             (other,) = set(LOSSES) - {loss}
-            raise InputError(
-                f"loss = '{other}': allowed beside {name} is {loss}; it may be left out"
-            )
+            raise InputError(f"loss = '{other}': allowed with {name} is {loss}; it may be left out")

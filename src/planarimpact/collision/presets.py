@@ -21,7 +21,7 @@ class Preset(NamedTuple):
     pair : Pair
     source : str
         Where the numbers come from; it says which are typical or chosen, not measured.
-    beware : str
+    caveat : str
         Where the model does not hold.
     """
 
@@ -29,7 +29,7 @@ class Preset(NamedTuple):
     body: Body
     pair: Pair
     source: str
-    beware: str
+    caveat: str
 
 
 def presets() -> dict[str, Preset]:

@@ -1,9 +1,9 @@
 """Oblique impact of spheres with micro-slip: the continuum, elastic or with a loss of energy.
 
 A Hertz contact slips in an outer annulus and sticks inside, as Maw, Barber & Fawcett (1976)
-describe it. The method is that of dimensionality reduction: a row of springs. `elastic` holds the
+describe it. The method is that of dimensionality reduction: a row of springs. `elastic` has the
 case e = 1, with the normal motion of `normal_impact.hertz`, the springs of `micro_slip` and the
-steps of `tangential_motion`. `inelastic` holds two ways to lose energy below e = 1. `refinement`
+steps of `tangential_motion`. `inelastic` has two ways to lose energy below e = 1. `refinement`
 doubles the number of steps until the answer, extrapolated once, meets the tolerance.
 
 Gross slip from the start of contact needs no steps: its closed form is exact. So are impacts that
@@ -14,13 +14,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Rebound
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.refinement import Unsolved as Unsolved
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
 from planarimpact.normal_impact import LOSSES as LOSSES
+from planarimpact.normal_impact import VISCOUS as VISCOUS
 from planarimpact.normal_impact import hertz
 
 # Below this restitution most contacts need more steps than are allowed.
@@ -105,7 +106,7 @@ def rebound(
         If an argument is not a finite real number in its range, or shapes do not broadcast.
     ConvergenceError
         If the tolerance is not met with `MOST_STEPS` steps, or is out of their reach. `impacts`
-        holds the flat indices of all such impacts, the message describes the first.
+        has the flat indices of all such impacts, the message describes the first.
 
     Notes
     -----
@@ -213,7 +214,7 @@ def slip_throughout_limit(
 
     Notes
     -----
-    Derived in `planarimpact.ground.sliding`, and for plastic loss in `inelastic.plastic`.
+    Derived in `planarimpact.common.sliding`, and for plastic loss in `inelastic.plastic`.
 
     Examples
     --------
@@ -301,7 +302,7 @@ def history(
 def _kind_of_motion(restitution: ArrayLike, loss: str | None) -> type[NormalMotion] | None:
     """How spheres with this loss move; refuse impacts that lose too much, or do not say how."""
     if loss is None:
-        checks.lossless(restitution, LOSSES)
+        checks.require_loss(restitution, LOSSES)
         return None
     found = inelastic.MOTIONS[checks.loss(loss, tuple(inelastic.MOTIONS))]
     allowed = f"numbers from {LEAST_RESTITUTION} to 1, with a loss"

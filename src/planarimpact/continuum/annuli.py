@@ -15,9 +15,9 @@ traction and friction), tangential displacement zeta^2 mu d_max.
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Integers
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Integers
+from planarimpact.common.results import Rebound, Regime
 
 # Entries of the systems of equations that are solved together: this bounds the memory.
 CELLS = 2**18

@@ -8,8 +8,8 @@ one at which the contact slips as a whole, zeta^2 mu times the approach.
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
 
 
 @checks.default_errors

@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.results import Regime
 from planarimpact.continuum import refinement, tangential_motion
 from planarimpact.continuum.refinement import Solved
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.results import Regime
 
 FIRST_STEPS, MOST_STEPS = 16, 2**15
 # Factor of the estimated error. With it none of 7000 random impacts had an error above 0.3 of the

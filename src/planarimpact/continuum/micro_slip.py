@@ -20,8 +20,8 @@ u has changed by d.
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Integers, Numbers
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Integers, Numbers
 
 
 class ElasticSprings:
@@ -53,7 +53,7 @@ class ElasticSprings:
         """Move the tips of some contacts in one straight step (in r^2, u); return the forces.
 
         `radius` and `displacement` are those at the end of the step. Afterwards `stick_radius`
-        holds the radius inside which nothing slipped in this step.
+        is the radius inside which nothing slipped in this step.
         """
         # The new cone has its tip at c = -u. Vertices inside it stay; those outside have slipped.
         column, top, memory = self._column[which], self._top[which], -displacement

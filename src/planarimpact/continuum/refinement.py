@@ -6,9 +6,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError
-from planarimpact.ground.results import Regime
+from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.checks import ConvergenceError
+from planarimpact.common.results import Regime
 
 # Values, counts of gross slips and of reversals, and how near one slip more or less is.
 Solved: TypeAlias = tuple[Array, Integers, Array]

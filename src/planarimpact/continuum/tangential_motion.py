@@ -16,9 +16,9 @@ in the whole motion.
 
 import numpy as np
 
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array
 from planarimpact.continuum.micro_slip import ElasticSprings
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array
 from planarimpact.normal_impact import hertz
 
 

@@ -24,10 +24,10 @@ import numpy as np
 from planarimpact import __version__, spheres
 from planarimpact.collision import RESTITUTION_FROM
 from planarimpact.collision.presets import Preset, presets
-from planarimpact.ground import checks, files
-from planarimpact.ground.arrays import Array, ArrayLike, Integers
-from planarimpact.ground.checks import InputError
-from planarimpact.ground.results import Regime
+from planarimpact.common import checks, files
+from planarimpact.common.arrays import Array, ArrayLike, Integers
+from planarimpact.common.checks import InputError
+from planarimpact.common.results import Regime
 from planarimpact.normal_impact import LEAST_RESTITUTION, LOSSES, kelvin_voigt
 from planarimpact.spheres import table as tables
 from planarimpact.spheres.table import LEFT, ORDER, PACKED, RIGHT, ROOTS, Table
@@ -257,7 +257,7 @@ def _packed(values: list[Integers]) -> str:
 
 def _preset(name: str, preset: Preset, prefix: str) -> dict[str, Any]:
     """A body with its pair. A number that a pair leaves out is 0, as is its loss."""
-    words = f"{preset.about}. Numbers: {preset.source}.", f"Beware: {preset.beware}"
+    words = f"{preset.about}. Numbers: {preset.source}.", f"Caveat: {preset.caveat}"
     pair = {field: float(np.nan_to_num(getattr(preset.pair, field))) for field in PAIR}
     loss: str | int = 0
     if pair["restitution"]:

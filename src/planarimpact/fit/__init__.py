@@ -5,9 +5,9 @@ finds the tangential spring and dashpot with which such a law comes nearest to t
 `planarimpact.spheres` or `planarimpact.continuum`, and says which error remains. `lines` writes
 them as the code wants to read them. The normal spring and dashpot follow from restitution.
 
-A fit holds for one restitution, so for one speed where restitution depends on it, for one pair of
-materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of an
-impact costs.
+A fit is valid for one restitution, so for one speed where restitution depends on it, for one pair
+of materials, for its range of incidence, and for small overlaps: `lines` says what the overlap of
+an impact costs.
 
 `models.timestep` steps through a contact, `codes` knows the codes, `overlaps` what larger overlaps
 cost.
@@ -16,10 +16,10 @@ cost.
 import numpy as np
 
 from planarimpact import continuum, spheres
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.fit.codes import CODES, Code, Error, Fit, lines
 from planarimpact.fit.overlaps import overlap
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.models import timestep
 
 __all__ = ["CODES", "Code", "Error", "Fit", "fit", "lines", "overlap"]
@@ -116,20 +116,18 @@ def fit(
     ]
     _, stiffness, damping, style = min(fitted, key=lambda found: found[0])
     contact = code.styles[style]
-    told = timestep.told_for(contact, e)
+    input_restitution = timestep.input_restitution_for(contact, e)
     usual = 1 / zeta2 if code.usual_stiffness is None else code.usual_stiffness
     usual_damping = code.usual_damping * timestep.normal_damping(contact.hertzian, e)
 
-    def stepped(own: timestep.Law, spring: float, dashpot: float, told: float) -> Array:
-        each = [
-            timestep.with_dashpots(own, far, beta, spring, dashpot, told, begins=b) for b in BEGINS
-        ]
+    def stepped(own: timestep.Law, k: float, c: float, given: float) -> Array:
+        each = [timestep.with_dashpots(own, far, beta, k, c, given, begins=b) for b in BEGINS]
         return np.stack(each)
 
     before = stepped(contact._replace(limited=code.limited), usual, usual_damping, e)
-    after = stepped(contact, stiffness, damping, told)
+    after = stepped(contact, stiffness, damping, input_restitution)
     off = after - exact
-    numbers = law, style, stiffness, damping, told, beta, zeta2, e, loss
+    numbers = law, style, stiffness, damping, input_restitution, beta, zeta2, e, loss
     curves = x, exact[:-1], before[0, :-1], after[0, :-1]
     errors = _error(before[:, :-1] - exact[:-1], x), _error(off[:, :-1], x)
     return Fit(*numbers, *curves, *errors, float(np.abs(off[:, -1]).max()))
@@ -145,7 +143,7 @@ def _error(off: Array, x: Array) -> Error:
 def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: str | None) -> Array:
     """Velocity of the continuum, from the table of spheres where that has it."""
     if spheres.covers(beta, zeta2, e):
-        return spheres.rebound(x, beta, zeta2, e, loss=loss or "viscous").velocity
+        return spheres.rebound(x, beta, zeta2, e, loss=loss or continuum.VISCOUS).velocity
     return continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=TOLERANCE).velocity
 
 
@@ -155,11 +153,11 @@ def _nearest(
     """Mean square of the error of a law, its stiffness and damping."""
     from scipy import optimize  # here, as it takes longer to import than this package
 
-    told = timestep.told_for(law, e)
+    input_restitution = timestep.input_restitution_for(law, e)
 
     def velocity(stiffness: Array, damping: Array, steps: int = timestep.DASHPOT_STEPS) -> Array:
         return timestep.with_dashpots(
-            law, x, beta, stiffness[..., None], damping[..., None], told, steps
+            law, x, beta, stiffness[..., None], damping[..., None], input_restitution, steps
         )
 
     def mean_square(place: Array) -> float:

@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import bodies
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.fit import overlaps
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
 from planarimpact.models import timestep
 from planarimpact.models.timestep import Law
 from planarimpact.normal_impact import hertz
@@ -41,7 +41,7 @@ the range, at x = {twice:.3g}, {found.beyond:.3f}
 #     of two spheres at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
 #     of a sphere at a flat wall {wall} for x up to {up_to[1]:g}
 {jumps}{larger}#   a spin against the motion can more than double it
-# The fit holds for this restitution and this material.
+# The fit is valid for this restitution and this material.
 """
 JUMPS = """\
 #     of these {0:g}, {1:g} and {2:g} also for the smallest overlap: velocities jump where a step of
@@ -49,7 +49,7 @@ JUMPS = """\
 """
 LARGER = "#   at a larger mu it is more; how much is not known\n"
 LAMMPS = """\
-# limit_damping keeps contacts from pulling: with it {found.told:.4g} gives e = \
+# limit_damping keeps contacts from pulling: with it {found.input_restitution:.4g} gives e = \
 {found.restitution:g}.
 # Behind {found.style}: tangential stiffness UNIT, tangential damping as a multiple of the normal \
 one, friction.
@@ -139,7 +139,8 @@ CODES = {
         origin="NULL 1.0, as in examples of its manual",
         words=LAMMPS.replace("UNIT", "over contact radius [Pa]").replace(
             "SPRING",
-            "hertz/material {young:g} {found.told:g} {nu:g} tangential {found.style} {gt:g}",
+            "hertz/material {young:g} {found.input_restitution:g} {nu:g} tangential {found.style} "
+            "{gt:g}",
         ),
     ),
     "lammps-hooke": Code(
@@ -150,7 +151,7 @@ CODES = {
         by_normal=True,
         origin="2/7 of the stiffness and 1/2 of the damping, as its style gran/hooke/history has",
         words=LAMMPS.replace("UNIT", "[N/m]").replace(
-            "SPRING", "hooke {kn:g} {found.told:g} tangential {found.style} {kt:g}"
+            "SPRING", "hooke {kn:g} {found.input_restitution:g} tangential {found.style} {kt:g}"
         ),
     ),
     "mercurydpm": Code(
@@ -183,7 +184,7 @@ class Error(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """A law of a code beside the continuum, as `planarimpact.fit.fit` returns it.
+    """A law of a code compared with the continuum, as `planarimpact.fit.fit` returns it.
 
     Attributes
     ----------
@@ -196,8 +197,8 @@ class Fit(NamedTuple):
     damping : float
         Coefficient of the tangential dashpot, over (m2 F/d)^(1/2) with the elastic force F at the
         approach d: over (m2 kn)^(1/2) where the contact is linear.
-    told : float
-        Restitution that the code is told, with which the contact has that of the fit.
+    input_restitution : float
+        Restitution that the code gets as input, so that its contact has that of the fit.
     mass_ratio, stiffness_ratio, restitution : float
         The groups of the fit; the stiffness ratio is that of the continuum.
     loss : str or None
@@ -216,7 +217,7 @@ class Fit(NamedTuple):
     style: str
     stiffness: float
     damping: float
-    told: float
+    input_restitution: float
     mass_ratio: float
     stiffness_ratio: float
     restitution: float
@@ -265,7 +266,7 @@ def lines(
     Returns
     -------
     str
-        Comments that say what was fitted to what, which error it has, and what the overlap adds to
+        Comments on what was fitted to what, which error it has, and what the overlap adds to
         that, and then the lines, in SI units.
 
     Raises
@@ -310,7 +311,7 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
     lasts = 2 * hertz.COMPRESSION * hertz.PEAK_FORCE * mass * v2 / force
     # Stiffness and damping of linear springs, normal and tangential.
     kn = mass * (math.pi / lasts) ** 2
-    damping = timestep.normal_damping(hertzian=False, told=found.told)
+    damping = timestep.normal_damping(hertzian=False, input_restitution=found.input_restitution)
     root = (kn * mass) ** 0.5
     linear = {"kn": kn, "kt": kn * found.stiffness}
     linear |= {"cn": root * damping, "ct": root * found.damping}
@@ -318,8 +319,8 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
     strong = 1 / (2 / WALL - 1)
     factors = {"": 1.0, "wall_": WALL, "yade_": 2.0, "yade_wall_": 2 * strong}
     law = CODES[found.law].styles[found.style]
-    own_damping = timestep.normal_damping(law.hertzian, found.told)
-    # A wall with the dashpots of spheres is as a contact that is told another restitution.
+    own_damping = timestep.normal_damping(law.hertzian, found.input_restitution)
+    # A wall with the dashpots of spheres is as a contact with another input restitution.
     weaker = damping / WALL
     at_wall = math.exp(-math.pi * weaker / math.sqrt(4 - weaker**2))
     end, known = float(found.incidence[-1]), overlaps.FRICTIONS[-1]

@@ -10,8 +10,8 @@ leave this out. Normal and lever arm may cancel: for steel beads in LAMMPS, at m
 """
 
 from planarimpact import bodies
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import ArrayLike
+from planarimpact.common import checks
+from planarimpact.common.arrays import ArrayLike
 
 # What was measured in LAMMPS, see `data/lammps/overlap.csv`, and computed for all codes, see
 # `tests/unit/test_fit.py`: largest approaches over the radius of a sphere, and frictions. At the

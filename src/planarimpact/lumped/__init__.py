@@ -2,11 +2,11 @@
 
 A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
-on it with Coulomb friction. `losses` says what each loss of energy means. `stick_slip` holds the
+on it with Coulomb friction. `losses` defines each loss of energy. `stick_slip` contains the
 phases, `slip_onset` where slip starts, `normal` the normal motion, `extremes` what makes groups of
 any size possible.
 
-The keyword `loss` says what takes the normal energy where e < 1. At e = 1 all are the same model.
+The keyword `loss` names what takes the normal energy where e < 1. At e = 1 all are the same model.
 
 - "hysteretic": the paper's element, of which only the normal direction loses energy.
 - "unloading-stiffness": as the paper's, but with the elastic normal stiffness in the ratio. The
@@ -30,9 +30,9 @@ differ from it, and to a measured rubber sphere it is the nearest. At e = 0.8 it
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import History, Rebound
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import History, Rebound
 from planarimpact.lumped.losses import LOSSES as LOSSES
 from planarimpact.lumped.losses import loss_of
 from planarimpact.lumped.stick_slip import Impacts
@@ -91,8 +91,8 @@ def rebound(
     places: the limit of slip throughout (see `slip_throughout_limit`) and the direction of the last
     slip, which at small e is the incident one.
 
-    With viscous loss the errors are at most 1e-9: of the velocity beside max(1, x, beta), of the
-    peak beside 1, of the dissipation beside x^2/(2 beta) or, if that is smaller, (1 + e) x.
+    With viscous loss the errors are at most 1e-9: of the velocity relative to max(1, x, beta),
+    of the peak to 1, of the dissipation to x^2/(2 beta) or, if that is smaller, (1 + e) x.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def slip_throughout_limit(
 ) -> Array:
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
-    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger; `ground.sliding` derives
+    x = beta + max(0, e beta - zeta^2/e), or zeta^2 where that is larger; `common.sliding` derives
     it. The paper prints (1 + e) beta (heading of Eq. 26), but by its own conditions for the end of
     the first slip, Eqs 17 to 20, that slip does not end above the value given here.
 

@@ -5,8 +5,8 @@ Functions of impacts x >= 0, which `stick_slip` solves, whatever the size of the
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Numbers
-from planarimpact.ground.results import EventKind, History
+from planarimpact.common.arrays import Array, Numbers
+from planarimpact.common.results import EventKind, History
 from planarimpact.lumped import normal, stick_slip
 from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts

@@ -5,9 +5,9 @@ A loss has four functions of impacts x >= 0. At e = 1 all losses are the same mo
 
 import numpy as np
 
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import History
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array
+from planarimpact.common.results import History
 from planarimpact.lumped import hysteretic, viscous
 from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts, Outcome
@@ -43,7 +43,7 @@ class Hysteretic:
         return outcome
 
     def solve_chunk(self, impacts: Impacts) -> Outcome:
-        """As `solve`, at once."""
+        """Outcome of impacts, arrays of shape (n,), all at once."""
         return scaling.solve(self._element(impacts))
 
     def history(self, mirror: float, impacts: Impacts, samples: int) -> History:
@@ -70,7 +70,7 @@ class UnloadingStiffness(Hysteretic):
     """The paper's element with the tangential stiffness kappa/(e^2 zeta^2), that of unloading."""
 
     def stiffness_ratio(self, zeta2: Array, e: Array) -> Array:
-        """As in `Hysteretic`: e^2 zeta^2, rounded as in `sliding.restick_coefficient`."""
+        """Stiffness ratio e^2 zeta^2 of unloading, rounded as in `sliding.restick_coefficient`."""
         return e * (e * zeta2)
 
 
@@ -80,11 +80,11 @@ class Viscous(Hysteretic):
     chunk = 131072  # of up to four kinds, each of them solved together
 
     def slides_from(self, beta: Array, zeta2: Array, e: Array) -> Array:
-        """As in `Hysteretic`."""
+        """Incidence from which slip never ends where both directions lose energy alike."""
         return sliding.limit_alike(beta, zeta2, e)
 
     def solve_chunk(self, impacts: Impacts) -> Outcome:
-        """As in `Hysteretic`; where e = 1 the elements are the same."""
+        """Outcome of a chunk: at e = 1 that of `Hysteretic`, below it that of damped elements."""
         damped = impacts.e < 1
         if damped.all():
             return viscous.solve(impacts)
@@ -96,13 +96,13 @@ class Viscous(Hysteretic):
         return outcome
 
     def history(self, mirror: float, impacts: Impacts, samples: int) -> History:
-        """As in `Hysteretic`."""
+        """One contact, its arrays of shape (1,): at e = 1 that of `Hysteretic`."""
         if impacts.e[0] == 1:
             return super().history(mirror, impacts, samples)
         return viscous.history(mirror, impacts, samples)
 
     def friction_work(self, impacts: Impacts) -> float:
-        """As in `Hysteretic`; below e = 1 `solve` has it in closed form."""
+        """Work of friction in one contact; below e = 1 by the closed form of `solve`."""
         if impacts.e[0] == 1:
             return super().friction_work(impacts)
         return float(self.solve(impacts).dissipation[0])

@@ -8,7 +8,7 @@ Omega |v2(0)|, impulse m2 |v2(0)|, time t_c.
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.common.arrays import Array, Numbers
 
 
 def force(eta: Numbers) -> Array:

@@ -19,9 +19,9 @@ The root is searched only where it is alone:
 
 import numpy as np
 
-from planarimpact.ground import roots
-from planarimpact.ground.angles import HALF_PI, sin_cos
-from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.common import roots
+from planarimpact.common.angles import HALF_PI, sin_cos
+from planarimpact.common.arrays import Array, Booleans, Integers
 
 # Rounding may put an onset at the very end of its bracket beyond it, by less than this share.
 BEYOND = 1 + 1e-6

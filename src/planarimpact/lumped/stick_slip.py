@@ -25,11 +25,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground import sliding
-from planarimpact.ground.angles import HALF_PI, sin_cos
-from planarimpact.ground.arrays import Array, Integers, Numbers
-from planarimpact.ground.checks import ConvergenceError, InputError
-from planarimpact.ground.results import Regime
+from planarimpact.common import sliding
+from planarimpact.common.angles import HALF_PI, sin_cos
+from planarimpact.common.arrays import Array, Integers, Numbers
+from planarimpact.common.checks import ConvergenceError, InputError
+from planarimpact.common.results import Regime
 from planarimpact.lumped import normal, slip_onset
 from planarimpact.lumped.extremes import many_phases
 
@@ -211,9 +211,9 @@ def _at_compression(
         outcome.velocity[ending] = np.sqrt(beta[ends] / ratio) * ratio * largest * cosine
         outcome.peak_friction[ending] = np.where(theta[ends] < HALF_PI, friction, largest)
         outcome.dissipation[ending] += ratio * friction * friction / 2
-        # No slip follows: STICK_SLIP becomes STICK, and SLIP_STICK_SLIP becomes SLIP_STICK. By the
-        # order of the codes both are the same step.
-        outcome.regime[ending] -= np.uint8(Regime.STICK_SLIP - Regime.STICK)
+        # No slip follows.
+        sticks_first = outcome.regime[ending] == Regime.STICK_SLIP
+        outcome.regime[ending] = np.where(sticks_first, Regime.STICK, Regime.SLIP_STICK)
         which, amplitude, theta = which[goes_on], amplitude[goes_on], theta[goes_on]
     return Stick(which, np.full_like(theta, HALF_PI), theta, amplitude, np.ones_like(theta))
 

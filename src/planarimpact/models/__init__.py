@@ -2,13 +2,13 @@
 
 Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)`,
 the four groups by position or name and its own settings by name. It returns a `Rebound`. The
-workflow measures what each model costs and how large its error is (`results/trade.csv`).
+workflow measures what each model costs and how large its error is (`results/curves/trade.csv`).
 
 Arguments and errors: a `name` is one of `MODELS`, a `model` too or its entry there. `incidence`,
 `mass_ratio`, `stiffness_ratio` and `restitution` are those of `planarimpact.lumped.rebound`;
 `settings` are those of the model, and have its defaults. `InputError` says what is not allowed.
 
-A name says what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
+A name contains what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
 "lumped" and "continuum" alone are elastic. A law of impulses takes any loss. `register` adds a
 model of your own.
 """
@@ -21,10 +21,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import continuum, lumped, rigid, spheres
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Rebound
 from planarimpact.continuum import annuli
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
 from planarimpact.models import laws, timestep
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.
@@ -39,7 +39,7 @@ class Model(NamedTuple):
     Attributes
     ----------
     name : str
-        Module; and function or loss, where a module holds several.
+        Module; and function or loss, where a module has several.
     rebound : callable
         Its solver.
     settings : dict
@@ -98,9 +98,8 @@ def rebound(
     >>> rebound("lumped", 2.0, restitution=0.8)
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.8: allowed are numbers equal to 1, unless the model's \
-name says what takes the energy: lumped.hysteretic (the paper's), lumped.unloading-stiffness, \
-lumped.viscous
+    planarimpact.InputError: restitution = 0.8: below 1 it needs a model with a loss: choose \
+lumped.hysteretic (the paper's), lumped.unloading-stiffness, lumped.viscous
     """
     chosen = get(model)
     refuse_unknown(chosen, settings)
@@ -288,7 +287,7 @@ def _elastic(
     """Solve with the loss left out, for e = 1 alone; a refusal names the models with a loss."""
     groups = incidence, mass_ratio, stiffness_ratio, restitution
     checks.impact(*groups)
-    checks.lossless(restitution, losses(name).values(), "the model's name")
+    checks.require_loss(restitution, losses(name).values(), "a model with a loss")
     return solve(*groups, **settings)
 
 
@@ -447,7 +446,7 @@ MODELS = {
 def reference(restitution: float, loss: str | None = None) -> str:
     """Name of the model that others are measured against: a continuum.
 
-    It is elastic for e = 1. Below, `loss` says which one, "viscous" or "plastic", and `InputError`
+    It is elastic for e = 1. Below, `loss` names which one, "viscous" or "plastic", and `InputError`
     that it is missing or another word. If the loss is not known, the error is up to the distance
     between the two lossy ones. Arguments and errors: `planarimpact.models`.
 
@@ -457,7 +456,7 @@ def reference(restitution: float, loss: str | None = None) -> str:
     ('continuum', 'continuum.viscous', 'continuum.plastic')
     """
     if loss is None:
-        checks.lossless(restitution, continuum.LOSSES)
+        checks.require_loss(restitution, continuum.LOSSES)
         return "continuum"
     checks.loss(loss, continuum.LOSSES)
     return "continuum" if np.all(checks.restitution(restitution) == 1) else f"continuum.{loss}"

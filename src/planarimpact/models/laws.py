@@ -24,9 +24,9 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, ArrayLike, Booleans
+from planarimpact.common.results import Rebound, Regime
 
 # Least squares of velocity against `planarimpact.continuum.rebound` at beta = 3.5, zeta^2 = 17/14
 # (Poisson's ratio 0.3), x = 0, 0.05 ... 8, among numbers from 0 to 1, rounded to two digits.

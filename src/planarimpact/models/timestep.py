@@ -51,7 +51,7 @@ law                 factor  gain              order  distance
 `MINDLIN_RESCALED`  1.0076  4.3; 1.01         1      0.31
 ==================  ======  ================  =====  ========
 
-The overlap is taken to vanish beside the radius: no normal turns, no lever arm becomes shorter.
+The overlap is taken to be much smaller than the radius: no normal turns, no lever arm shortens.
 
 Units: m2 and |v2(0)|, times mu in tangential direction; the largest approach of a contact that
 loses nothing. So the normal spring has the force d where it is linear, and 1.25 d^(3/2) where it is
@@ -66,9 +66,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers, Numbers
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers, Numbers
+from planarimpact.common.results import Rebound, Regime
 from planarimpact.normal_impact import hertz
 
 STEPS = 64
@@ -168,25 +168,24 @@ def with_dashpots(
     mass_ratio: float,
     stiffness: Array | float,
     damping: Array | float,
-    told: float,
+    input_restitution: float,
     steps: int = DASHPOT_STEPS,
     begins: float = 0.0,
 ) -> Array:
     """Velocity v1(tf)/(mu v2(0)) of the contact point; x, stiffness and damping broadcast.
 
     The tangential stiffness comes as a share of the normal one, in a Hertz contact at every
-    approach; the tangential damping as the coefficient of its dashpot. `told` is the restitution
-    that a code is told, see `told_for`. `steps` is their number in a contact that loses nothing,
-    `begins` the part of the first step that is over when the bodies touch, from 0 to below 1.
-    Arguments are not checked.
+    approach; the tangential damping as the coefficient of its dashpot. `input_restitution` comes
+    from `input_restitution_for`. `steps` is their number in a contact that loses nothing, `begins`
+    the part of the first step that is over when the bodies touch, below 1. Nothing is checked.
 
     Examples
     --------
-    >>> with_dashpots(Law(), np.array([0.5, 2.0, 8.0]), 3.5, 14 / 17, 0.0, told=1.0).round(2)
+    >>> with_dashpots(Law(), np.array([0.5, 2.0, 8.0]), 3.5, 14 / 17, 0.0, 1.0).round(2)
     array([ 0.21, -0.58,  1.  ])
     """
     velocity = np.array(np.broadcast_arrays(x, stiffness, damping)[0], float)
-    instants = _dashpot_motion(law, told, steps, begins)[0]
+    instants = _dashpot_motion(law, input_restitution, steps, begins)[0]
     for _ in _friction(law, instants, velocity, mass_ratio, stiffness, damping):
         pass
     return velocity
@@ -203,7 +202,7 @@ def duration(hertzian: bool) -> float:
     return 2 * hertz.COMPRESSION if hertzian else math.pi
 
 
-def normal_damping(hertzian: bool, told: float) -> float:
+def normal_damping(hertzian: bool, input_restitution: float) -> float:
     """Coefficient of the normal dashpot for a restitution, where the contact may pull at its end.
 
     Notes
@@ -212,14 +211,14 @@ def normal_damping(hertzian: bool, told: float) -> float:
 
     Examples
     --------
-    >>> round(normal_damping(hertzian=False, told=math.exp(-math.pi)), 6)
+    >>> round(normal_damping(hertzian=False, input_restitution=math.exp(-math.pi)), 6)
     1.414214
     """
-    logarithm = abs(math.log(told))
+    logarithm = abs(math.log(input_restitution))
     return (math.sqrt(5) if hertzian else 2.0) * logarithm / math.hypot(math.pi, logarithm)
 
 
-def restitution(law: Law, told: float, steps: int = DASHPOT_STEPS) -> float:
+def restitution(law: Law, input_restitution: float, steps: int = DASHPOT_STEPS) -> float:
     """Normal speed after a contact over that before it, with dashpots.
 
     Examples
@@ -227,18 +226,18 @@ def restitution(law: Law, told: float, steps: int = DASHPOT_STEPS) -> float:
     >>> round(restitution(Law(), 0.8, 2000), 3)
     0.8
     """
-    return _dashpot_motion(law, told, steps, 0.0)[1]
+    return _dashpot_motion(law, input_restitution, steps, 0.0)[1]
 
 
 @functools.lru_cache(maxsize=64)
-def told_for(law: Law, restitution: float) -> float:
-    """Restitution that a code must be told, so that the contact has this one.
+def input_restitution_for(law: Law, restitution: float) -> float:
+    """Restitution that a code gets as input, so that its contact has this one.
 
-    A contact that cannot pull keeps more of its energy than the coefficient says.
+    A contact that cannot pull keeps more of its energy than the coefficient gives.
 
     Examples
     --------
-    >>> told_for(Law(), 0.8), round(told_for(Law(limited=True), 0.8), 3)
+    >>> input_restitution_for(Law(), 0.8), round(input_restitution_for(Law(limited=True), 0.8), 3)
     (0.8, 0.791)
     """
     from scipy import optimize  # here, as it takes longer to import than this package
@@ -246,17 +245,17 @@ def told_for(law: Law, restitution: float) -> float:
     if not law.limited or restitution == 1:
         return restitution
 
-    def excess(told: float) -> float:
-        return _limited_restitution(law.hertzian, told) - restitution
+    def excess(input_restitution: float) -> float:
+        return _limited_restitution(law.hertzian, input_restitution) - restitution
 
     return float(optimize.brentq(excess, restitution / 4, restitution, xtol=1e-9))
 
 
-def _limited_restitution(hertzian: bool, told: float) -> float:
+def _limited_restitution(hertzian: bool, input_restitution: float) -> float:
     """Speed after a contact that ends where its force would become negative; in any unit of it."""
     from scipy import integrate  # as above
 
-    damping = normal_damping(hertzian, told)
+    damping = normal_damping(hertzian, input_restitution)
 
     def force(state: Array) -> float:
         depth = max(float(state[0]), 0.0)
@@ -339,11 +338,11 @@ def _friction(
 
 @functools.lru_cache(maxsize=128)
 def _dashpot_motion(
-    law: Law, told: float, steps: int, begins: float
+    law: Law, input_restitution: float, steps: int, begins: float
 ) -> tuple[tuple[_Instant, ...], float]:
     """Every step with an overlap, and the speed after them."""
     step = duration(law.hertzian) / steps
-    damping = normal_damping(law.hertzian, told)
+    damping = normal_damping(law.hertzian, input_restitution)
     depth: Numbers = -begins * step
     speed: Numbers = 1.0
     radius: Numbers = 0.0

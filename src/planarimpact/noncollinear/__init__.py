@@ -23,10 +23,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError, InputError, checked, finite, positive
-from planarimpact.ground.results import Regime
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.checks import ConvergenceError, InputError, checked, finite, positive
+from planarimpact.common.results import Regime
 from planarimpact.noncollinear import rigid
 from planarimpact.noncollinear.configuration import (
     InverseMass,
@@ -349,7 +349,7 @@ def _checked(
     )
     losses = tuple(name for name in lumped.LOSSES if name != "viscous")  # see `rebound`
     if loss is None:
-        checks.lossless(restitution, losses)
+        checks.require_loss(restitution, losses)
     else:
         checks.loss(loss, losses)
     if loss == "unloading-stiffness":

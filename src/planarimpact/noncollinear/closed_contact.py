@@ -35,7 +35,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Booleans, Numbers
+from planarimpact.common.arrays import Array, Booleans, Numbers
 from planarimpact.noncollinear.phases import Groups, State
 
 # Compression goes on only if C F exceeds the peak of N by more than this share of it.

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.bodies import Motion, fields
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.checks import InputError, checked, finite, not_negative, positive
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.checks import InputError, checked, finite, not_negative, positive
 
 
 class InverseMass(NamedTuple):

@@ -25,7 +25,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.common.arrays import Array, Numbers
 
 
 class Groups(NamedTuple):

@@ -30,8 +30,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Booleans
 from planarimpact.noncollinear.configuration import InverseMass, checked_impact, refuse_overflow
 
 

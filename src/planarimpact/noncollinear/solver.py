@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.results import Regime
+from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.results import Regime
 from planarimpact.noncollinear import closed_contact, stick_end
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
 

@@ -22,8 +22,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.angles import sin_cos
-from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.common.angles import sin_cos
+from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.noncollinear.phases import Groups, Slip, State, Stick, rotated
 
 NOISE = 1e-15

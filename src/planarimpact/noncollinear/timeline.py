@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import Event, EventKind
+from planarimpact.common.arrays import Array
+from planarimpact.common.results import Event, EventKind
 from planarimpact.noncollinear.closed_contact import ClosedPhase
 from planarimpact.noncollinear.phases import Slip
 from planarimpact.noncollinear.solver import Phase

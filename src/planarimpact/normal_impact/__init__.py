@@ -16,7 +16,7 @@ Units, except in `hertz`: E* = 1, R = 1, m2 = 1, |v2(0)| = 1, so that Hertz's fo
 from collections.abc import Callable
 from typing import NamedTuple
 
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from planarimpact.normal_impact import hertz, kelvin_voigt, yielding
 
 __all__ = ["LAWS", "LEAST_RESTITUTION", "LOSSES", "Law", "hertz", "kelvin_voigt", "yielding"]
@@ -29,10 +29,11 @@ class Law(NamedTuple):
     property: str
 
 
-# By what takes the energy.
+# The losses of spheres.
+VISCOUS, PLASTIC = "viscous", "plastic"
 LAWS = {
-    "viscous": Law(kelvin_voigt.largest_force, "relaxation_time"),
-    "plastic": Law(yielding.largest_force, "yield_pressure"),
+    VISCOUS: Law(kelvin_voigt.largest_force, "relaxation_time"),
+    PLASTIC: Law(yielding.largest_force, "yield_pressure"),
 }
 LOSSES = tuple(LAWS)
 # The inverses and forces of both laws hold from here. The viscous tables end at e = 0.0216.

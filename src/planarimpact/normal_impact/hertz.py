@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike
 
 # Largest normal force in m2 v2(0)^2/d_max, as the strain energy (2/5) F2max d_max is all energy.
 PEAK_FORCE = 1.25

@@ -25,8 +25,8 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from planarimpact.ground import cubics, roots
-from planarimpact.ground.arrays import Array, Integers
+from planarimpact.common import cubics, roots
+from planarimpact.common.arrays import Array, Integers
 from planarimpact.normal_impact import hertz
 
 __all__ = ["largest_force", "relaxation_time", "restitution", "series"]

@@ -20,8 +20,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from planarimpact.ground import roots
-from planarimpact.ground.arrays import Array
+from planarimpact.common import roots
+from planarimpact.common.arrays import Array
 from planarimpact.normal_impact import hertz
 
 __all__ = ["largest_force", "restitution", "yield_velocity"]

@@ -61,7 +61,7 @@ def solve(
     ------
     InputError
         For what is no DataFrame, columns that are missing, misspelt or do not go together, or a bad
-        row, by its number from 1, such as one below restitution 1 whose loss nobody says.
+        row, by its number from 1, such as one below restitution 1 without a loss.
     ConvergenceError
         If the continuum does not reach the tolerance, by the row. It takes milliseconds an impact,
         at mass ratios of hundreds up to seconds; above some 10 000 most impacts end like this.

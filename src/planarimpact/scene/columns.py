@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from planarimpact.collision import LOSSES, RESTITUTION_FROM
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import LARGEST, SMALLEST, Array, Booleans
-from planarimpact.ground.checks import InputError
+from planarimpact.common import checks
+from planarimpact.common.arrays import LARGEST, SMALLEST, Array, Booleans
+from planarimpact.common.checks import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -65,7 +65,7 @@ OTHER_PLANE = {f"other_{name}": column for name, column in PLANE.items()}
 OTHER_SPACE = {f"other_{name}": column for name, column in SPACE.items()}
 
 KNOWN = BODY | OTHER | PAIR | PLANE | SPACE | NORMAL | OTHER_PLANE | OTHER_SPACE
-# What the result adds to the table, beside the states after, restitution and loss.
+# What the result adds to the table, in addition to the states after, restitution and loss.
 _result = partial(Column, allowed="")
 RESULT = {
     "contact_velocity_after": _result("m/s", "of the contact point, in the direction of incidence"),
@@ -78,7 +78,7 @@ RESULT = {
     "peak_friction_force": _result("N"),
     "energy_lost": _result("J"),
 }
-# The column that is carried over without a word; others that are not known are told.
+# The column that is carried over without a warning, which other unknown columns get.
 LABEL = "id"
 # A name as similar as this to one that is known is a misspelling.
 CLOSE = 0.8
@@ -203,7 +203,7 @@ def _refuse_incomplete(names: set[str]) -> None:
 
 
 def _refuse_restitution(names: set[str]) -> None:
-    """Refuse a table that does not say restitution in one way."""
+    """Refuse a table that does not give the restitution in one way."""
     present = names & set(RESTITUTION_FROM)
     if len(present) != 1:
         listed = f" {_listed(present)}" if present else ""
@@ -211,7 +211,7 @@ def _refuse_restitution(names: set[str]) -> None:
     (name,) = present
     if "loss" in names and RESTITUTION_FROM[name]:
         raise InputError(
-            f"column loss: allowed only beside restitution, as {header(name)} is always "
+            f"column loss: allowed only with restitution, as {header(name)} is always "
             f"{RESTITUTION_FROM[name]}"
         )
 
@@ -244,7 +244,7 @@ def numbers(
     """Columns of a table as float64 by name, and `{position: message}` of its bad rows.
 
     `names` is what `named` returns. Of several problems of a row the first one counts. Losses are
-    words, empty where a row says none; `loss` is that of all rows where no column says it.
+    words, empty where a row has none; `loss` is that of all rows of a table without the column.
     """
     values: dict[str, Any] = {}
     problems: dict[int, str] = {}
@@ -268,9 +268,8 @@ def numbers(
         for position in np.flatnonzero(missing).tolist():
             problems.setdefault(
                 position,
-                f"restitution = {values['restitution'][position]:g}: allowed are numbers equal to "
-                "1, unless a column loss or the argument loss (--loss) says what takes the energy: "
-                f"{', '.join(LOSSES)}",
+                f"restitution = {values['restitution'][position]:g}: below 1 it needs a loss, "
+                f"from a column loss or the argument loss (--loss): choose {', '.join(LOSSES)}",
             )
     return values, problems
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from planarimpact.collision import TOLERANCE
-from planarimpact.ground import checks, csv_text, files
-from planarimpact.ground.checks import InputError
+from planarimpact.common import checks, csv_text, files
+from planarimpact.common.checks import InputError
 from planarimpact.scene import columns
 from planarimpact.scene.solver import BLOCK, Solver
 
@@ -62,7 +62,7 @@ def solve(
         As in `solve`.
     skip_bad : bool
         Leave bad rows out, also those with the wrong number of cells, instead of refusing the
-        table. They are in `bad` of the result, and in a file beside the target,
+        table. They are in `bad` of the result, and in a file next to the target,
         `<its name>.bad.csv`, which is written also if no row is bad.
     notice : callable, optional
         Called with a line of text: which columns are not known.
@@ -99,7 +99,7 @@ def solve(
 
 
 def _checked(path: str | Path) -> str:
-    """A name that says the kind of its table."""
+    """A name that shows the kind of its table."""
     name = str(path)
     if name != STREAM and not name.lower().endswith(KINDS):
         raise InputError(
@@ -197,7 +197,7 @@ def _end_of_lines(text: bytes) -> int:
 def _of_csv(file: Any, skip: Callable[[int, str], None] | None) -> Iterator[pa.Table]:
     """Parts of CSV: known columns as numbers if all cells are finite numbers, all else as text.
 
-    `skip` is told the number of a row with too many or too few cells, which is left out, and why.
+    `skip` gets the number of a row with too many or too few cells, which is left out, and why.
     """
     checked = _Checked(file)
     known = columns.named(checked.header)

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from planarimpact import bodies
-from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, mechanics, model_form, rungs
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, Booleans, Integers
-from planarimpact.ground.checks import ConvergenceError, InputError
-from planarimpact.ground.results import Regime
+from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, mechanics, methods, model_form
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.checks import ConvergenceError, InputError
+from planarimpact.common.results import Regime
 from planarimpact.scene import columns, states
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class Solver:
         self._loss = loss if loss is None else checks.loss(loss, columns.LOSSES)
         self.bad: list[tuple[int, str]] = []
         self.rows = 0
-        self._count_by_rung: Counter[int] = Counter()  # by place in `rungs.RUNGS`
+        self._count_by_method: Counter[int] = Counter()  # by place in `methods.METHODS`
         # Differences to the other loss, mu v2(0): how many, known or not; and those that are known,
         # their squares, and the largest.
         self._lossy, self._known, self._squares, self._largest = 0, 0, 0.0, 0.0
@@ -93,9 +93,9 @@ class Solver:
         str
         """
         lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
-        for place, count in self._count_by_rung.most_common():
-            rung = rungs.RUNGS[place]
-            lines.append(f"{count:>10}  {rung.name:<27}  {rung.why}")
+        for place, count in self._count_by_method.most_common():
+            method = methods.METHODS[place]
+            lines.append(f"{count:>10}  {method.name:<27}  {method.why}")
         if self._coupled:
             lines.append(
                 "the bodies spread differently under pressure, which no model here has: "
@@ -119,7 +119,7 @@ class Solver:
         values, problems = columns.numbers(table, names, self._loss)
         rows, good = _good_rows(values, problems)
         self._refuse(problems, skip_bad, InputError)
-        answers = rungs.answers(rows.impacts, self.tolerance, peaks=True)
+        answers = methods.answers(rows.impacts, self.tolerance, peaks=True)
         unsolved = {int(good[i]): message for i, message in answers.unsolved.items()}
         self._refuse(unsolved, skip_bad, ConvergenceError)
         form = model_form.model_forms(rows.impacts, answers.place, answers.velocity)
@@ -134,8 +134,7 @@ class Solver:
         for name in names.keys() & {"loss", *RESTITUTION_FROM} - {"restitution"}:
             if self._loss is not None:
                 raise InputError(
-                    f"loss = '{self._loss}': it does not apply, as the column '{names[name]}' says "
-                    "what takes the energy"
+                    f"loss = '{self._loss}': it does not apply, column '{names[name]}' gives it"
                 )
 
     def _refuse(
@@ -147,19 +146,20 @@ class Solver:
             more = f"; {len(problems) - 1} more rows are bad" if len(problems) > 1 else ""
             raise kind(f"row {self.rows + first + 1}: {problems[first]}{more}")
 
-    def _count(self, rows: states.Rows, answers: rungs.Answers, form: Array) -> None:
-        """Count the impacts of each rung, and what `explain` says of the models."""
+    def _count(self, rows: states.Rows, answers: methods.Answers, form: Array) -> None:
+        """Count the impacts of each method, and what `explain` says of the models."""
         place, solved = answers.place, _has_answer(answers)
-        counts = np.bincount(place[solved], minlength=len(rungs.RUNGS)).tolist()
-        self._count_by_rung += Counter(dict(enumerate(counts)))
-        lossy = np.flatnonzero(np.array([bool(rung.loss) for rung in rungs.RUNGS])[place] & solved)
+        counts = np.bincount(place[solved], minlength=len(methods.METHODS)).tolist()
+        self._count_by_method += Counter(dict(enumerate(counts)))
+        has_loss = np.array([bool(method.loss) for method in methods.METHODS])
+        lossy = np.flatnonzero(has_loss[place] & solved)
         differences = form[lossy] / rows.impacts.unit[lossy]
         known = differences[np.isfinite(differences)]
         self._lossy += lossy.size
         self._known += known.size
         self._squares += float(np.sum(known**2))
         self._largest = max(self._largest, float(np.max(known, initial=0.0)))
-        coupling = rows.coupling[place >= rungs.FIRST_OF_CONTINUA]
+        coupling = rows.coupling[place >= methods.FIRST_OF_CONTINUA]
         large = coupling[coupling > bodies.COUPLING]
         self._coupled += large.size
         self._largest_coupling = max(self._largest_coupling, float(np.max(large, initial=0.0)))
@@ -180,7 +180,7 @@ def _good_rows(values: dict[str, Array], problems: dict[int, str]) -> tuple[stat
         problems |= {int(good[i]): message for i, message in found.items()}
 
 
-def _has_answer(answers: rungs.Answers) -> Booleans:
+def _has_answer(answers: methods.Answers) -> Booleans:
     """Which impacts have an answer."""
     solved = np.ones(answers.place.size, dtype=bool)
     solved[list(answers.unsolved)] = False
@@ -188,7 +188,7 @@ def _has_answer(answers: rungs.Answers) -> Booleans:
 
 
 def _result(
-    rows: states.Rows, answers: rungs.Answers, form: Array, names: dict[str, str]
+    rows: states.Rows, answers: methods.Answers, form: Array, names: dict[str, str]
 ) -> dict[str, Any]:
     """The columns that are added to those of the table."""
     import pandas as pd
@@ -206,8 +206,8 @@ def _result(
     if "loss" not in names:
         code = np.where(impacts.restitution < 1, impacts.plastic, -1)
         result |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
-    models = list(dict.fromkeys(rung.model for rung in rungs.RUNGS))
-    model = np.array([models.index(rung.model) for rung in rungs.RUNGS])[answers.place]
+    models = list(dict.fromkeys(method.model for method in methods.METHODS))
+    model = np.array([models.index(method.model) for method in methods.METHODS])[answers.place]
     # Without friction there is no force of it, also where the normal force is not known.
     friction = np.where(
         peak * impacts.unit > 0, impacts.unit / impacts.v2 * peak * rows.peak_normal, 0.0

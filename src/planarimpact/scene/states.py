@@ -13,7 +13,7 @@ from planarimpact import bodies
 from planarimpact.bodies import Body, Material
 from planarimpact.collision import LOSSES, RESTITUTION_FROM, Pair, mechanics
 from planarimpact.collision.mechanics import Impacts, State
-from planarimpact.ground.arrays import LARGEST, Array
+from planarimpact.common.arrays import LARGEST, Array
 from planarimpact.scene.columns import AXES, PLANE
 
 
@@ -53,8 +53,8 @@ def _peak_normal(impacts: Impacts, modulus: Array, radius: Array) -> Array:
     approaches = (impacts.v2 > 0) & np.isfinite(impacts.v2)  # others are refused later
     speed = np.where(approaches, impacts.v2, 1.0)
     peak = np.full(speed.size, np.nan)
-    for position, name in enumerate(LOSSES):
-        which = known & (impacts.plastic == position)
+    for name in LOSSES:
+        which = known & (impacts.plastic == (name == "plastic"))
         if which.any():
             # All impacts are computed, so that a refusal has the index of its row.
             e = np.where(which, impacts.restitution, 1.0)

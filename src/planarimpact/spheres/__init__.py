@@ -1,6 +1,6 @@
 """The continuum of spheres from a table: fast, also where every impact has groups of its own.
 
-The table holds the rebound of elastic, viscous and plastic spheres, as `planarimpact.continuum`
+The table has the rebound of elastic, viscous and plastic spheres, as `planarimpact.continuum`
 solves it, for every incidence, restitution from 0.3 to 1, and mass over stiffness ratio from 1.5625
 to 3.5. Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's ratio from 0 to 1/2
 (stiffness ratio 1 to 1.5) are among them, and so is whatever lies between, such as discs (3).
@@ -9,9 +9,9 @@ to 3.5. Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's 
 
 import numpy as np
 
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.results import Rebound, Regime
 from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.spheres import table
 
@@ -149,8 +149,8 @@ table of spheres
         shapes = f"groups {groups[0].shape}, loss {codes.shape}"
         raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
     if (codes < 0).any():
-        checks.lossless(np.where(codes < 0, e, 1.0), LOSSES)
-    plastic = (codes == 1).reshape(-1)
+        checks.require_loss(np.where(codes < 0, e, 1.0), LOSSES)
+    plastic = (codes == LOSSES.index("plastic")).reshape(-1)
     _refuse_uncovered(beta, zeta2, e)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
     velocity, peak, work = np.empty((3, x.size))

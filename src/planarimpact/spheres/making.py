@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import continuum
+from planarimpact.common.arrays import Array
 from planarimpact.continuum import inelastic
-from planarimpact.ground.arrays import Array
 from planarimpact.spheres import table, thresholds
 from planarimpact.spheres.table import EVEN, LEFT, RIGHT, ROOTS, Panel, Table
 

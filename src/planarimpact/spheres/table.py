@@ -20,8 +20,8 @@ from typing import IO, Any, NamedTuple
 
 import numpy as np
 
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, Booleans, Integers, Number
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, Booleans, Integers, Number
 from planarimpact.normal_impact import hertz, kelvin_voigt, yielding
 
 # Bounds of b and e: a little wider than those that `spheres` admits.

@@ -21,11 +21,11 @@ from typing import Any
 
 import numpy as np
 
+from planarimpact.common import roots, sliding
+from planarimpact.common.arrays import Array
 from planarimpact.continuum import inelastic
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from planarimpact.continuum.inelastic.viscous import ViscousMotion
-from planarimpact.ground import roots, sliding
-from planarimpact.ground.arrays import Array
 from planarimpact.normal_impact import yielding
 
 # Steps of the continuum, and impacts solved together.

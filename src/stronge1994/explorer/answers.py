@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from planarimpact import continuum, lumped
-from planarimpact.ground.results import Regime
+from planarimpact.common.results import Regime
 
 # Incidence, mass ratio, stiffness ratio, restitution and for the continuum its loss; velocity, peak
 # friction and for the lumped model dissipation and the name of the regime.

@@ -94,14 +94,14 @@ def address(state: Mapping[str, float]) -> str:
 def balls(text: str) -> list[dict[str, str]]:
     """The balls of materials.yaml: name, address, and what the page says about their numbers.
 
-    >>> balls("balls: [{name: a, state: {friction: 1e-1}, source: measured, beware: It yields.}]")
+    >>> balls("balls: [{name: a, state: {friction: 1e-1}, source: measured, caveat: It yields.}]")
     [{'name': 'a', 'address': 'friction=0.1', 'about': 'It yields. Numbers: measured.'}]
     """
     return [_ball(**ball) for ball in strict_yaml.load(text)["balls"]]
 
 
 def _ball(
-    name: str, state: State, source: str = "", beware: str = "", preset: str = ""
+    name: str, state: State, source: str = "", caveat: str = "", preset: str = ""
 ) -> dict[str, str]:
     """One ball; the numbers and words of a preset of the package come with it."""
     if preset:
@@ -116,8 +116,8 @@ def _ball(
             "loss": "plastic" if pair.plastic else "viscous",
             **state,
         }
-        source, beware = given.source, f"{beware} {given.beware}"
-    about = str(escape(f"{beware} Numbers: {source}.".strip()))
+        source, caveat = given.source, f"{caveat} {given.caveat}"
+    about = str(escape(f"{caveat} Numbers: {source}.".strip()))
     return {"name": name, "address": urlencode(state), "about": about}
 
 

@@ -8,42 +8,26 @@ number, or one for each point.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.common.arrays import Array, ArrayLike
+from stronge1994.reference_data import Fact
 
-
-class Residuals(NamedTuple):
-    """A distance for each point: positive where the reference lies above what was computed.
-
-    `x` holds the abscissae of the points, `sigmas` the distances in sigmas of the reference, and
-    `plain` the vertical distances in units of the y axis.
-    """
-
-    x: Array
-    sigmas: Array
-    plain: Array
-
-
-def rms_and_max(distances: Array) -> tuple[float, float]:
-    """Root mean square and the largest size of some distances.
-
-    >>> rms_and_max(np.array([3.0, -3.0]))
-    (3.0, 3.0)
-    """
-    return float(np.sqrt(np.mean(distances**2))), float(np.abs(distances).max())
+# Of each point the distance in sigmas of the reference, and the vertical one in units of the axis;
+# positive where the reference lies above what was computed.
+Distances: TypeAlias = tuple[Array, Array]
 
 
 def curve_residuals(
     points: Sequence[ArrayLike], curve: Sequence[ArrayLike], sigma: tuple[ArrayLike, ArrayLike]
-) -> Residuals:
+) -> Distances:
     """Shortest distance of each point from the polyline of a curve, whose vertices stand in order.
 
     >>> line = ([0.0, 1.0, 2.0], [0.0, 5.0, 0.0])
-    >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0)).sigmas.tolist()
+    >>> curve_residuals(([0.0, 2.0], [-1.0, 0.0]), line, (1.0, 1.0))[0].tolist()
     [-1.0, 0.0]
     """
     (x, y), (line_x, line_y) = (
@@ -61,56 +45,43 @@ def curve_residuals(
         nearest[i] = np.hypot(*(point - start - share[:, None] * step).T).min()
     order = np.argsort(line_x, kind="stable")
     above = y - np.interp(x, line_x[order], line_y[order])
-    return Residuals(x, np.copysign(nearest, above), above)
+    return np.copysign(nearest, above), above
 
 
 def vertex_residuals(
-    points: tuple[ArrayLike, ArrayLike, Iterable[Any]],
-    vertices: tuple[ArrayLike, ArrayLike, Iterable[Any]],
-    sigma: tuple[ArrayLike, ArrayLike],
-) -> Residuals:
-    """Distance of each point from the nearest vertex with the same label.
+    points: Sequence[ArrayLike], vertices: Sequence[ArrayLike], sigma: tuple[ArrayLike, ArrayLike]
+) -> Distances:
+    """Distance of each point from the nearest vertex.
 
-    `points` and `vertices` have x, y and a label each; a label may be a tuple of words.
-
-    >>> vertices = ([0.0], [3.0], ["slip"])
-    >>> vertex_residuals(([0.0], [1.0], ["slip"]), vertices, (1.0, 1.0)).sigmas.tolist()
+    >>> vertex_residuals(([0.0], [1.0]), ([0.0, 9.0], [3.0, 1.0]), (1.0, 1.0))[0].tolist()
     [-2.0]
     """
-    x, y = (np.asarray(axis, float) for axis in points[:2])
-    vertex_x, vertex_y = (np.asarray(axis, float) for axis in vertices[:2])
-    at: dict[Any, list[int]] = {}
-    for index, label in enumerate(vertices[2]):
-        at.setdefault(label, []).append(index)
-    of_label = {label: (vertex_x[indices], vertex_y[indices]) for label, indices in at.items()}
+    (x, y), (vertex_x, vertex_y), scales = (
+        [np.asarray(axis, float) for axis in axes] for axes in (points, vertices, sigma)
+    )
+    scale_x, scale_y = (np.broadcast_to(scale, x.shape) for scale in scales)
     sigmas, above = np.empty(len(x)), np.empty(len(x))
-    sigma_x, sigma_y = (np.broadcast_to(np.asarray(axis, float), x.shape) for axis in sigma)
-    for i, label in enumerate(points[2]):
-        if label not in of_label:
-            raise ValueError(f"the reference has a vertex {label!a}, the curves do not")
-        dx, dy = x[i] - of_label[label][0], y[i] - of_label[label][1]
-        distance = np.hypot(dx / sigma_x[i], dy / sigma_y[i])
+    for i in range(len(x)):
+        dx, dy = x[i] - vertex_x, y[i] - vertex_y
+        distance = np.hypot(dx / scale_x[i], dy / scale_y[i])
         above[i] = dy[distance.argmin()]
         sigmas[i] = np.copysign(distance.min(), above[i])
-    return Residuals(x, sigmas, above)
+    return sigmas, above
 
 
-def fact_residuals(value: float, fact: Mapping[str, Any]) -> Residuals:
+def fact_residuals(value: float, fact: Fact) -> Distances:
     """Distance of a landmark from a stated fact, in the fact's own tolerance.
 
-    A fact is a `value` with a `tolerance`, or an inequality: `less_than`, or `greater_than`. For an
-    inequality the distance is 0 where it holds, else infinite.
+    For an inequality the distance is 0 where it holds, else infinite.
 
-    >>> fact_residuals(18.0, {"value": 20.0, "tolerance": 5.0}).sigmas.tolist()
-    [0.4]
-    >>> fact_residuals(0.5, {"less_than": 0.0}).sigmas.tolist()
-    [-inf]
+    >>> fact_residuals(18.0, Fact("a/b", "deg", value=20.0, tolerance=5.0))
+    (array([0.4]), array([2.]))
+    >>> fact_residuals(0.5, Fact("a/b", "N", less_than=0.0))
+    (array([-inf]), array([-0.5]))
     """
-    stated = next(fact[key] for key in ("value", "less_than", "greater_than") if key in fact)
-    gap = stated - value
-    if "value" in fact:
-        sigmas = gap / fact["tolerance"]
-    else:
-        holds = gap > 0 if "less_than" in fact else gap < 0
-        sigmas = 0.0 if holds else math.copysign(math.inf, gap)
-    return Residuals(np.array([value]), np.array([sigmas]), np.array([gap]))
+    stated = (fact.value, fact.less_than, fact.greater_than)
+    gap = next(limit - value for limit in stated if limit is not None)
+    if fact.tolerance is not None:
+        return np.array([gap / fact.tolerance]), np.array([gap])
+    holds = gap > 0 if fact.less_than is not None else gap < 0
+    return np.array([0.0 if holds else math.copysign(math.inf, gap)]), np.array([gap])

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.ground.arrays import ArrayLike
+from planarimpact.common.arrays import ArrayLike
 
 
 def find(kind: str, x: ArrayLike, y: ArrayLike, at: Any = None) -> float:

@@ -1,22 +1,18 @@
-"""The kinds of metric: what a comparison measures, and against what.
+"""Distances of curves from what a comparison names, by its metric."""
 
-Against a series of points: `distance` from a curve, or from its `vertices`. Against a stated fact:
-a `landmark` of a curve. Against a law, without a reference: a column that must be `small`, or two
-that must be equal; columns whose values have a `range`; or neighbours that must not leave further
-apart than they arrive (`contraction`).
-"""
-
-from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
-from stronge1994 import curve_names, reference_data
-from stronge1994.csv_tables import Columns, Curves
+from planarimpact.common.arrays import Array
+from stronge1994 import tables
 from stronge1994.judging import distances, landmarks
-from stronge1994.judging.distances import Residuals
-from stronge1994.judging.points import Entry, Reference, points, rows_of, sigma
+from stronge1994.judging.comparisons import Comparison, Metric
+from stronge1994.judging.distances import Distances
+from stronge1994.names import PRINTED
+from stronge1994.reference_data import Fact, Series
+from stronge1994.tables import Table
 
 # Two ways to compute one energy agree to this; see the reason of the comparison.
 BALANCE_SIGMA = 1e-12
@@ -26,112 +22,173 @@ LARGEST_RANGE_RATIO = 100
 
 
 class Measured(NamedTuple):
-    """How far curves are from what a comparison names.
+    """How far curves are from what a comparison names, at each of some points.
 
-    `quantity` is the column of the points' positions; `columns` names the column of each residual.
-    `shifts` has a row for each uncertain parameter: the change of all residuals if it is off by one
-    sigma.
+    `quantity` is the column of their positions `at`; `sigmas` and `plain` are `Distances`, and
+    `columns` names the column of each. `shifts` has a row for each uncertain parameter: the change
+    of all `sigmas` if it is off by one sigma.
     """
 
     quantity: str
-    residuals: Residuals
+    at: Array
+    sigmas: Array
+    plain: Array
     columns: list[str]
     shifts: Array = np.zeros((0, 0))
 
 
-def measure(entry: Entry, reference: Reference, curves: Curves) -> Measured:
+def measure(comparison: Comparison, curves: Table) -> Measured:
     """Distances of one comparison; a `ValueError` says what is missing."""
-    if entry["metric"] in _LAWS:
-        return _LAWS[entry["metric"]](entry, curves)
-    if entry["metric"] == "landmark":
-        return _landmark(entry, reference, curves)
-    series = points(entry, reference)
-    residuals, columns = _from_series(entry, reference, curves, series)
-    # The curve is solved again with each uncertain parameter off by one sigma, up and down.
-    shifts = []
-    for up, down in curve_names.shifted_by(entry.get("curve"), curves):
-        upper, _ = _from_series({**entry, "curve": up}, reference, curves, series)
-        lower, _ = _from_series({**entry, "curve": down}, reference, curves, series)
-        shift = (upper.sigmas - lower.sigmas) / 2
+    reference = comparison.reference
+    if isinstance(reference, Series):
+        return _from_points(comparison, reference, curves)
+    if isinstance(reference, Fact):
+        return _from_fact(comparison, reference, curves)
+    return _LAWS[comparison.metric](comparison, curves)
+
+
+def _from_points(comparison: Comparison, series: Series, curves: Table) -> Measured:
+    points = comparison.selected_points(series)
+    found = _distances(comparison, series, *points, curves)
+    shifts: list[Array] = []
+    for own, *both in _off_by_a_sigma(comparison, series, curves) if comparison.curve else ():
+        up, down = (_distances(comparison, series, *points, off).sigmas for off in both)
+        shift = (up - down) / 2
         # An error of a parameter moves all points together, unless each point has its own.
-        shifts += list(np.diag(shift)) if curve_names.EACH in up else [shift]
-    x = reference_data.column_name(reference["x"])
-    return Measured(x, residuals, columns, np.reshape(shifts, (len(shifts), len(columns))))
+        shifts += list(np.diag(shift)) if own else [shift]
+    return found._replace(shifts=np.reshape(shifts, (len(shifts), len(found.at))))
 
 
-def _from_series(
-    entry: Entry, reference: Reference, curves: Curves, series: Columns
-) -> tuple[Residuals, list[str]]:
-    """Distances of points from a curve or from vertices, and the column of each.
+def _distances(
+    comparison: Comparison, series: Series, points: Table, sigmas: list[Array], curves: Table
+) -> Measured:
+    """Distances of points from the curves, or from their vertices, that they select.
 
-    The curve is the named one, or that which each point names.
+    A point selects by its labels, as far as the comparison does not.
     """
-    x, labels = reference_data.column_name(reference["x"]), reference.get("labels", [])
-    of_curves = entry["metric"] == "distance"
-    owners = series["curve"] if of_curves and "curve" not in entry else np.full(len(series[x]), "")
-    parts: list[Residuals] = []
+    fixed = {key: "" for key in tables.DEFAULTS if key in curves and key not in series.labels}
+    chosen = curves[tables.where(curves, **fixed | comparison.curve)]
+    if chosen.empty:
+        tables.select(curves, **fixed | comparison.curve)  # says that there is none
+    labels = [key for key in series.labels if key in chosen and key not in comparison.curve]
+    # A label such as the number of a run is no choice among curves that do not have it.
+    empty = [key for key in labels if chosen[key].isin(["", np.nan]).all()]
+    labels = [key for key in labels if key in tables.KEYS or key not in empty]
+    _refuse_missing(chosen, [axis.name for axis in (series.x, *series.ordinates)])
+    pairs = [[series.x.name, axis.name] for axis in series.ordinates]
+    of_points, of_curves = (
+        [table[pair].to_numpy(float) for pair in pairs] for table in (points, chosen)
+    )
+    rows_of, find = _rows_by_labels(chosen, labels), _FROM_POINTS[comparison.metric]
+    parts: list[tuple[Array, *Distances]] = []
     columns: list[str] = []
-    for owner in dict.fromkeys(owners.tolist()):
-        for axis in reference_data.ordinates(reference):
-            y, name = reference_data.column_name(axis), owner or entry.get("curve")
-            chosen = rows_of(series, (owners == owner) & ~np.isnan(series[y]))
-            if not len(chosen[y]):
-                continue
-            scale = sigma(entry, (reference["x"], axis), chosen)
-            if of_curves:
-                line = _columns_of(curves, name, [x, y])
-                polyline = line[x], line[y]
-                parts.append(distances.curve_residuals((chosen[x], chosen[y]), polyline, scale))
-                columns += [f"{y} of {name}"] * len(chosen[y])
-            else:
-                own = _columns_of(curves, name, [x, y, *labels])
-                found, vertices = (
-                    (some[x], some[y], _labels(some, labels)) for some in (chosen, own)
-                )
-                parts.append(distances.vertex_residuals(found, vertices, scale))
-                columns += [f"{y} of {label}" if label else y for label in found[2]]
-    joined = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
-    return Residuals(*joined), columns
+    for values, at in _rows_by_labels(points, labels).items():
+        wanted = dict(zip(labels, values, strict=True))
+        if values not in rows_of:
+            tables.select(curves, **fixed | wanted | comparison.curve)  # says that there is none
+        of = tables.only_curve(chosen.take(rows_of[values]))
+        for (_, y), places, lines, sigma in zip(pairs, of_points, of_curves, sigmas, strict=True):
+            line = lines[rows_of[values]]
+            line, there = line[~np.isnan(line[:, 1])], ~np.isnan(places[at, 1])
+            if there.any() and not len(line):
+                raise ValueError(f"{of} has no column {y!a}")
+            if there.any():
+                some = places[at][there]
+                parts.append((some[:, 0], *find(some.T, line.T, tuple(sigma[at][there].T))))
+                columns += [f"{y} of {of}"] * int(there.sum())
+    at_x, in_sigmas, plain = map(np.concatenate, zip(*parts, strict=True))
+    return Measured(series.x.name, at_x, in_sigmas, plain, columns)
 
 
-def _labels(columns: Columns, label_columns: Iterable[str]) -> list[str]:
-    """A label for each row: its entries in the label columns, else empty."""
-    if not label_columns:
-        return [""] * len(next(iter(columns.values())))
-    rows = zip(*(columns[name] for name in label_columns), strict=True)
-    return [", ".join(map(str, row)) for row in rows]
+def _rows_by_labels(table: Table, labels: list[str]) -> dict[tuple[Any, ...], list[int]]:
+    """Places of the rows with the same labels; all rows if there are no labels."""
+    keys = table[labels].astype(object).fillna("")
+    found: dict[tuple[Any, ...], list[int]] = {}
+    for row, key in enumerate(zip(*(keys[label] for label in labels), strict=True)):
+        found.setdefault(key, []).append(row)
+    return found if labels else {(): list(range(len(table)))}
 
 
-def _landmark(entry: Entry, fact: Reference, curves: Curves) -> Measured:
-    """A landmark against a stated fact."""
-    kind, x, y = (entry["landmark"][key] for key in ("kind", "x", "y"))
-    own = _columns_of(curves, entry["curve"], [x, y])
-    value = landmarks.find(kind, own[x], own[y], entry["landmark"].get("at"))
-    quantity = y if kind == "value" else x
-    return Measured(quantity, distances.fact_residuals(value, fact), [quantity])
+def _off_by_a_sigma(
+    comparison: Comparison, series: Series, curves: Table
+) -> Iterator[tuple[bool, Table, Table]]:
+    """Tables with one uncertain parameter off by a sigma, up and down; whether it is each point's.
 
-
-def _of_law(entry: Entry, curves: Curves) -> tuple[str, Array, Array]:
-    """The columns of a law, in all curves that have them.
-
-    First come name and values of the first column of numbers, which says where the points lie.
+    Curves are solved again for a parameter that all points share.
     """
-    own = _columns_of(curves, entry.get("curve"), entry["columns"])
-    first = next(name for name, values in own.items() if values.dtype.kind == "f")
-    return first, own[first], np.array([own[name] for name in entry["columns"]])
+    own = tables.select(curves, **comparison.curve)
+    scattered = {y.name: tables.sigma_name(y.name) for y in series.ordinates}
+    scattered = {y: sigma for y, sigma in scattered.items() if sigma in own}
+    if scattered:
+        up, down = (
+            curves.assign(**{y: curves[y] + sign * curves[sigma] for y, sigma in scattered.items()})
+            for sign in (1, -1)
+        )
+        yield True, up, down
+    if "shifted" in curves:
+        wanted = {"variant": ""} | dict(comparison.curve)
+        for parameter in curves["shifted"][tables.where(curves, **wanted)].unique():
+            if parameter:
+                up, down = (
+                    curves[tables.where(curves, shifted=parameter, sigmas=sign)] for sign in (1, -1)
+                )
+                yield False, up.assign(shifted=""), down.assign(shifted="")
 
 
-def _small(entry: Entry, curves: Curves) -> Measured:
+def _refuse_missing(curves: Table, columns: Iterable[str]) -> None:
+    if missing := [column for column in columns if column not in curves]:
+        raise ValueError(f"no such column: {', '.join(missing)}; there are {', '.join(curves)}")
+
+
+def _from_fact(comparison: Comparison, fact: Fact, curves: Table) -> Measured:
+    """A landmark against a stated fact."""
+    sought = comparison.landmark
+    assert sought is not None  # as the schema has it
+    own = tables.select(curves, **comparison.curve)
+    tables.only_curve(own)
+    _refuse_missing(own, (sought.x, sought.y))
+    value = landmarks.find(sought.kind, own[sought.x], own[sought.y], sought.at)
+    quantity = sought.y if sought.kind == "value" else sought.x
+    return Measured(quantity, np.array([value]), *distances.fact_residuals(value, fact), [quantity])
+
+
+def _rows_of_law(comparison: Comparison, curves: Table) -> Table:
+    """Rows of the curves that must obey a law and have all its columns.
+
+    Without a selection these are all curves, but those off by a sigma and the printed equations.
+    """
+    if comparison.curve:
+        curves = tables.select(curves, **comparison.curve)
+    elif "model" in curves:
+        curves = curves[curves["model"] != PRINTED]
+        curves = curves[curves["shifted"] == ""] if "shifted" in curves else curves
+    _refuse_missing(curves, comparison.columns)
+    own = curves.dropna(subset=list(comparison.columns))
+    return own.dropna(axis="columns", how="any")
+
+
+def _of_law(comparison: Comparison, curves: Table) -> tuple[str, Array, Array]:
+    """The columns of a law.
+
+    First come name and values of the first quantity, which says where the points lie.
+    """
+    own = _rows_of_law(comparison, curves)
+    first = next(filter(tables.is_quantity, own))
+    return first, own[first].to_numpy(), own[list(comparison.columns)].to_numpy().T
+
+
+def _small(comparison: Comparison, curves: Table) -> Measured:
     """A column that must be small, or two that must be equal up to `BALANCE_SIGMA`."""
-    first, x, values = _of_law(entry, curves)
+    first, x, values = _of_law(comparison, curves)
     gap, scale = (values[0] - values[1], BALANCE_SIGMA) if len(values) == 2 else (values[0], 1.0)
-    return Measured(first, Residuals(x, gap / scale, gap), [entry["columns"][0]] * len(x))
+    return Measured(first, x, gap / scale, gap, [comparison.columns[0]] * len(x))
 
 
-def _range(entry: Entry, curves: Curves) -> Measured:
+def _range(comparison: Comparison, curves: Table) -> Measured:
     """Columns that must lie in a range: distances from its middle, in half its width."""
-    names, (low, high) = entry["columns"], entry["range"]
-    first, x, values = _of_law(entry, curves)
+    assert comparison.range is not None  # as the schema has it
+    names, (low, high) = comparison.columns, comparison.range
+    first, x, values = _of_law(comparison, curves)
     most = LARGEST_RANGE_RATIO * np.abs(values).max()
     if max(abs(low), abs(high)) >= most:
         raise ValueError(
@@ -139,51 +196,22 @@ def _range(entry: Entry, curves: Curves) -> Measured:
             f"{LARGEST_RANGE_RATIO} times the largest value; a wider range tests nothing"
         )
     gap = values.ravel() - (low + high) / 2
-    residuals = Residuals(np.tile(x, len(names)), gap / ((high - low) / 2), gap)
-    return Measured(first, residuals, np.repeat(names, len(x)).tolist())
+    columns = np.repeat(names, len(x)).tolist()
+    return Measured(first, np.tile(x, len(names)), gap / ((high - low) / 2), gap, columns)
 
 
-def _contraction(entry: Entry, curves: Curves) -> Measured:
+def _contraction(comparison: Comparison, curves: Table) -> Measured:
     """Largest excess of the distance of neighbours at departure over that at arrival, by place."""
-    x, y = entry["columns"]
-    parts = []
-    for name, columns in curves.items():
-        # The printed equations need not obey this law.
-        obeys = not (curve_names.AS_PRINTED in name or curve_names.is_shifted(name))
-        if obeys and name.startswith(entry.get("beginning", "")) and {x, y} <= set(columns):
-            order = np.argsort(columns[x], kind="stable")
-            arrive, leave = (np.abs(np.diff(columns[axis][order])) for axis in (x, y))
-            parts.append((columns[x][order][1:], np.maximum(leave - arrive, 0.0)))
-    if not parts:
-        raise ValueError(f"no curve has the columns {entry['columns']}")
-    at, excesses = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
-    places, place_of = np.unique(at, return_inverse=True)
-    excess = np.zeros(len(places))
-    np.maximum.at(excess, place_of, excesses)
-    return Measured(x, Residuals(places, excess, excess), [y] * len(places))
+    x, y = comparison.columns
+    own = _rows_of_law(comparison, curves).sort_values(x, kind="stable")
+    steps = own.groupby("curve", sort=False)[[x, y]].diff().abs().dropna()
+    excess = (steps[y] - steps[x]).clip(lower=0.0).groupby(own[x]).max()
+    places, largest = excess.index.to_numpy(), excess.to_numpy()
+    return Measured(x, places, largest, largest, [y] * len(places))
 
 
-_LAWS: dict[str, Callable[[Entry, Curves], Measured]] = {
-    "small": _small,
-    "range": _range,
-    "contraction": _contraction,
+_FROM_POINTS = {
+    Metric.DISTANCE: distances.curve_residuals,
+    Metric.VERTICES: distances.vertex_residuals,
 }
-
-
-def _columns_of(curves: Curves, name: str | None, needed: Sequence[str]) -> Columns:
-    """Columns of the named curve, or of all curves that have the `needed` ones, joined.
-
-    `curve` has the name of each row's curve.
-    """
-    if name is not None and name not in curves:
-        raise ValueError(f"no curve {name!a}; the figure has {', '.join(curves)}")
-    holders = [
-        own | {"curve": np.full(len(next(iter(own.values()))), key)}
-        for key, own in (curves if name is None else {name: curves[name]}).items()
-        if {*needed} <= {"curve", *own}
-    ]
-    if not holders:
-        which = "no curve has" if name is None else f"curve {name!a} does not have"
-        raise ValueError(f"{which} the columns {', '.join(needed)}")
-    shared = [key for key in holders[0] if all(key in own for own in holders)]
-    return {key: np.concatenate([own[key] for own in holders]) for key in shared}
+_LAWS = {Metric.SMALL: _small, Metric.RANGE: _range, Metric.CONTRACTION: _contraction}

@@ -9,32 +9,27 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
+import pandas as pd
 
-from stronge1994 import csv_tables, reference_data
-from stronge1994.csv_tables import Curves
+from stronge1994 import tables
 from stronge1994.formulas import plain
-from stronge1994.judging.distances import rms_and_max
+from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.points import Entry, Reference, is_published, kind, question
-from stronge1994.judging.verdicts import chi_squared_of, judge
-from stronge1994.verdict_tables.verdict_table import (
-    COLUMNS,
-    FAILED,
-    FAILS,
-    LEDGER,
-    Verdict,
-)
+from stronge1994.judging.verdicts import Judgement, judge
+from stronge1994.reference_data import Fact, Series
+from stronge1994.tables import Table
+from stronge1994.verdict_table import COLUMNS, LEDGER, Verdict
 
 RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
-# The cells of a row by `COLUMNS`. `residuals` holds rows of the table of residuals.
+# The cells of a row by `COLUMNS`. `residuals` has its part of the table of residuals.
 VerdictRow: TypeAlias = dict[str, Any]
 
 
 def compare(
     name: str,
     path: str,
-    comparisons: Mapping[str, Entry],
-    references: Mapping[str, Reference],
+    comparisons: Mapping[str, Mapping[str, Any]],
+    references: Mapping[str, Mapping[str, Any]],
     significance: float,
 ) -> list[VerdictRow]:
     """Rows of the verdict table, one for each comparison of the table of curves at `path`.
@@ -42,123 +37,118 @@ def compare(
     `name` is that of a figure, or `scene_` and that of a scene. `references` has the series and
     facts of source.yaml under `source/entry`, each with the parameters of its source. Published
     points agree if p is above `significance`. Beside the cells of the table each row has
-    `residuals`, its rows of the table of residuals.
+    `residuals`, its part of the table of residuals.
     """
-    curves, rows = read(path), []
-    for title, entry in comparisons.items():
-        reference = references.get(entry.get("reference", ""), {})
-        cells: VerdictRow = {key: entry.get(key, "") for key in ("reference", "curve", "reason")}
-        cells["question"] = question(entry, reference)
-        if kind(reference) == "awaited":
-            rows.append(_row(name, title, Verdict.AWAITED, note=reference["figure"], **cells))
-            continue
-        try:
-            measured = measure(entry, reference, curves)
-            verdict = judge(entry, reference, measured, significance)
-            cells |= _numbers(entry, reference, measured, significance)
-            x, sigmas, _ = (column.tolist() for column in measured.residuals)
-            points = zip(x, sigmas, strict=True)
-            cells["residuals"] = [[title, measured.quantity, *point] for point in points]
-            note = _note(entry, measured, verdict)
-        except Exception as error:
-            verdict, note = FAILED[cells["question"]], f"{error}"
-        rows.append(_row(name, title, verdict, note=note, **cells))
-    return rows
+    curves = read(path)
+    every = [Comparison.of(title, entry, references) for title, entry in comparisons.items()]
+    return [
+        dict.fromkeys(COLUMNS, "") | {"figure": name} | _row(one, curves, significance)
+        for one in every
+    ]
 
 
-def read(path: str) -> Curves:
-    """Curves that are judged. A number that is not finite is an error.
-
-    The table of a figure has its own curves. That of a scene becomes one curve `impacts`, whose
-    rows are numbered.
-    """
-    if Path(path).parent.name == "scenes":
-        rows = csv_tables.read_rows(path)
-        columns = {name: csv_tables.values([row[name] for row in rows]) for name in rows[0]}
-        curves = {"impacts": {"row [1]": np.arange(1.0, len(rows) + 1)} | columns}
-    else:
-        curves = csv_tables.read(path)
-    csv_tables.refuse_not_finite(curves)
-    return curves
+def read(path: str) -> Table:
+    """Curves of a figure, or the impacts of a scene with their numbers; all finite."""
+    if Path(path).parent.name != "scenes":
+        return tables.read(path)
+    table = tables.read(path, "impacts")
+    table.insert(1, "row [1]", np.arange(1.0, len(table) + 1))
+    return table
 
 
-def _note(entry: Entry, measured: Measured, verdict: Verdict) -> str:
+def _row(comparison: Comparison, curves: Table, significance: float) -> VerdictRow:
+    """Cells of one comparison: what was measured, and the verdict on it."""
+    reference = comparison.reference
+    cells: VerdictRow = {
+        "comparison": comparison.name,
+        "question": comparison.question,
+        "reference": reference.name if reference else "",
+        "curve": tables.curve_name(comparison.curve),
+        "model": comparison.curve.get("model", ""),
+        "reason": plain(comparison.reason),
+    }
+    if isinstance(reference, Series) and reference.kind == "awaited":
+        return cells | {"verdict": Verdict.AWAITED, "note": reference.figure}
+    try:
+        measured = measure(comparison, curves)
+        judged = judge(comparison, measured, significance)
+        cells |= _numbers(comparison, measured, judged, significance)
+        own = comparison.name, measured.quantity, measured.at, measured.sigmas
+        cells["residuals"] = pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))
+        verdict, note = judged.verdict, _note(comparison, measured, judged.verdict)
+    except Exception as error:
+        verdict, note = comparison.question.failed, f"{error}"
+    return cells | {"verdict": verdict, "note": plain(note)}
+
+
+def _note(comparison: Comparison, measured: Measured, verdict: Verdict) -> str:
     """The documented cause of a difference; of a new difference, where it is largest."""
-    documented = entry.get("documented", {})
-    recorded: str = (
-        f"{LEDGER}{documented['entry']}" if "entry" in documented else documented.get("note", "")
-    )
-    sigmas = np.abs(measured.residuals.sigmas)
-    if verdict not in FAILS or len(sigmas) == 1:
-        return recorded
+    known = comparison.documented
+    cause = (f"{LEDGER}{known.entry}" if known.entry else known.note) if known else ""
+    sigmas = np.abs(measured.sigmas)
+    if not verdict.fails or len(sigmas) == 1:
+        return cause
     worst = int(sigmas.argmax())
-    at = f"{measured.quantity} = {measured.residuals.x[worst]:g}"
+    at = f"{measured.quantity} = {measured.at[worst]:g}"
     place = f"largest for {measured.columns[worst]} at {at}"
-    return "; ".join(part for part in (recorded, place) if part)
+    return "; ".join(part for part in (cause, place) if part)
 
 
 def _numbers(
-    entry: Entry, reference: Reference, measured: Measured, significance: float
+    comparison: Comparison, measured: Measured, judged: Judgement, significance: float
 ) -> VerdictRow:
-    x, sigmas, plain = measured.residuals
-    bounds = entry.get("regression", {}).items()
+    bounds = comparison.regression.items()
     cells: VerdictRow = {
-        "points": len(x),
-        "unit": _unit(reference),
-        "allowed": _allowed(entry, reference, significance),
+        "points": len(measured.at),
+        "unit": _unit(comparison.reference),
+        "allowed": _allowed(comparison, significance),
         "regression": ", ".join(f"{low:g} <= {key} <= {high:g}" for key, (low, high) in bounds),
     }
-    for unit, distances in {"sigma": sigmas, "axis units": plain}.items():
-        rms, largest = rms_and_max(distances)
+    for unit, (rms, largest) in {"sigma": judged.sigmas, "axis units": judged.plain}.items():
         cells |= {f"rms [{unit}]": f"{rms:.3g}", f"max [{unit}]": f"{largest:.3g}"}
-    if kind(reference) == "fact":
-        cells |= {"found": f"{x[0]:.4g}", "stated": _stated(reference)}
-    if is_published(reference):
-        chi2 = chi_squared_of(reference, measured)
+    if isinstance(comparison.reference, Fact):
+        cells |= {"found": f"{measured.at[0]:.4g}", "stated": _stated(comparison.reference)}
+    if chi2 := judged.chi2:
         cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
-        cells["degrees of sigma"] = chi2.of_sigma or ""
-        cells["p"] = f"{chi2.p:.2g}"
+        cells |= {"degrees of sigma": chi2.of_sigma or "", "p": f"{chi2.p:.2g}"}
     return cells
 
 
-def _stated(fact: Reference) -> str:
+def _stated(fact: Fact) -> str:
     """A stated value or inequality with its unit."""
-    unit = "" if fact["unit"] == "1" else f" {fact['unit']}"
-    signs = {"value": "", "less_than": "< ", "greater_than": "> "}
-    return "".join(f"{sign}{fact[key]:g}{unit}" for key, sign in signs.items() if key in fact)
+    unit = "" if fact.unit == "1" else f" {fact.unit}"
+    stated = {"": fact.value, "< ": fact.less_than, "> ": fact.greater_than}
+    return "".join(f"{sign}{value:g}{unit}" for sign, value in stated.items() if value is not None)
 
 
-def _unit(reference: Reference) -> str:
+def _unit(reference: Series | Fact | None) -> str:
     """Unit of the distances in axis units; empty for a law, and for several axes of other units."""
-    if kind(reference) in ("law", "fact"):
-        return f"{reference.get('unit', '')}"
-    units = {axis["unit"] for axis in reference_data.ordinates(reference)}
+    if not isinstance(reference, Series):
+        return reference.unit if reference else ""
+    units = {axis.unit for axis in reference.ordinates}
     return units.pop() if len(units) == 1 else ""
 
 
-def _allowed(entry: Entry, reference: Reference, significance: float) -> str:
-    if "range" in entry:
-        return "{:g} to {:g}".format(*entry["range"])
-    if not is_published(reference):
-        return f"max <= {entry.get('limit', 1.0):g}"
+def _allowed(comparison: Comparison, significance: float) -> str:
+    reference = comparison.reference
+    if comparison.range:
+        return "{:g} to {:g}".format(*comparison.range)
+    if not (isinstance(reference, Series) and reference.is_published):
+        return f"max <= {comparison.limit:g}"
     criterion = f"p > {significance:g}"
-    if "allowance" not in entry:
+    if comparison.allowance is None:
         return criterion
+    allowed = comparison.allowance
     sizes = (
-        f"{reference[key]['column']} {size:g} {reference[key]['unit']}"
-        for key, size in entry["allowance"].items()
+        f"{axis.column} {size:g} {axis.unit}"
+        for axis, size in ((reference.x, allowed.x), (reference.ordinates[0], allowed.y))
     )
     return f"{criterion}; the model may be off by {', '.join(sizes)}".replace("_", " ")
 
 
-def _row(figure: str, name: str, verdict: Verdict, **cells: Any) -> VerdictRow:
-    row = dict.fromkeys(COLUMNS, "")
-    row |= {"figure": figure, "comparison": name, "verdict": str(verdict)} | cells
-    return row | {key: plain(row[key]) for key in ("note", "reason")}
-
-
 def write(rows: Sequence[VerdictRow], verdicts: str, residuals: str) -> None:
     """Write both tables of the `rows` that `compare` gave."""
-    csv_tables.write_table(verdicts, rows, COLUMNS)
-    points = [point for row in rows for point in row.get("residuals", [])]
-    csv_tables.write_rows(residuals, RESIDUALS, points)
+    tables.write_rows(verdicts, rows, COLUMNS)
+    points = [row["residuals"] for row in rows if "residuals" in row]
+    every = pd.concat([pd.DataFrame(columns=RESIDUALS), *points])
+    every.to_csv(residuals, index=False, lineterminator="\n")

@@ -32,12 +32,12 @@ MODULES = ("dynamics", "slip", "rebound", "peak_force", "dissipation", "nature")
 
 @cache
 def checks() -> dict[str, Callable[..., float | Finding]]:
-    """All checks of this room, by `module.function`."""
+    """All checks of this package, by `module.function`."""
     found: dict[str, Callable[..., float | Finding]] = {}
     for module in MODULES:
-        room = import_module(f"stronge1994.ledger.{module}")
-        for name, function in inspect.getmembers(room, inspect.isfunction):
-            if function.__module__ == room.__name__ and not name.startswith("_"):
+        imported = import_module(f"stronge1994.ledger.{module}")
+        for name, function in inspect.getmembers(imported, inspect.isfunction):
+            if function.__module__ == imported.__name__ and not name.startswith("_"):
                 found[f"{module}.{name}"] = function
     return found
 

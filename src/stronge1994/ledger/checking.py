@@ -10,10 +10,10 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from stronge1994 import ledger
-from stronge1994.csv_tables import Row
 from stronge1994.ledger import entries, finding, outcome
 from stronge1994.ledger.entries import Entry
 from stronge1994.ledger.finding import MODELS
+from stronge1994.tables import Row
 
 # What the checks of `nature` find, by check, written as a call, and model.
 Measured: TypeAlias = dict[str, dict[str, float]]

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from planarimpact import lumped, models
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.results import Event, EventKind, History, Rebound
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.results import Event, EventKind, History, Rebound
 from stronge1994.printed import dynamics, slip
 
 # The sphere of the paper's examples (p. 444), and others, all with omega > Omega as it assumes,
@@ -69,7 +69,7 @@ def cumulative(values: Array, time: Array) -> Array:
     >>> cumulative(np.array([0.0, 1.0, 4.0]), np.array([0.0, 1.0, 2.0])).tolist()[::2]
     [0.0, 2.6666666666666665]
     """
-    # Each start of Snakemake imports this room, and SciPy would take longer than all else in it.
+    # Each start of Snakemake imports this package, and SciPy would take longer than all else in it.
     from scipy.integrate import cumulative_simpson
 
     return cumulative_simpson(values, x=time, initial=0)

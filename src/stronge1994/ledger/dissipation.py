@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from planarimpact import lumped, rigid
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import Contact, NormalMotion, State
 from stronge1994.ledger.dynamics import PLATE

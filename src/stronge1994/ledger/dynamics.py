@@ -3,8 +3,8 @@
 import numpy as np
 
 from planarimpact import bodies, lumped, noncollinear
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import EventKind
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import EventKind
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import Contact, NormalMotion
 from stronge1994.ledger.finding import Gaps, corrected_over, largest, over

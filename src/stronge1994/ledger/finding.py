@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.common.arrays import Array, ArrayLike
 
 # Numbers nearer than this are equal. It leaves room for the rounding of a few hundred operations,
 # and for the error of quadrature.

@@ -14,9 +14,9 @@ from types import ModuleType
 import numpy as np
 
 from planarimpact import continuum, lumped
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import History, Rebound, Regime
 from planarimpact.continuum import ContinuumHistory
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import History, Rebound, Regime
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import MASS_RATIO
 from stronge1994.ledger.finding import PAPER, PLASTIC, UNLOADING_STIFFNESS, VISCOUS

@@ -4,8 +4,8 @@ import textwrap
 from collections import Counter
 from collections.abc import Sequence
 
-from stronge1994.csv_tables import Row
 from stronge1994.ledger.finding import MODELS
+from stronge1994.tables import Row
 
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "grade", "cause", "where", "says", "test", "found",

@@ -6,8 +6,8 @@ from itertools import product
 import numpy as np
 
 from planarimpact import bodies, lumped, rigid
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.results import Rebound
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.results import Rebound
 from stronge1994.judging import landmarks
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import Contact, State, boundary

@@ -5,9 +5,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from planarimpact import bodies, continuum, lumped, rigid
+from planarimpact.common.arrays import Array
+from planarimpact.common.results import Regime
 from planarimpact.continuum import ContinuumHistory
-from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import Regime
 from planarimpact.models import laws
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import ELASTIC_LIMIT, HARD, INCIDENCE, Contact, boundary

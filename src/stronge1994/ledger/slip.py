@@ -6,8 +6,8 @@ from itertools import product
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Regime
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Regime
 from stronge1994.ledger import contact
 from stronge1994.ledger.contact import Contact, State, boundary
 from stronge1994.ledger.finding import Gaps, corrected_over, over

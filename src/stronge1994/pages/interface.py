@@ -5,15 +5,13 @@ from pathlib import Path
 from typing import Any, get_args
 from unittest import mock
 
-from planarimpact.ground import arrays
-from stronge1994 import csv_tables
+from planarimpact.common import arrays
 from stronge1994.pages import templates
 
 # Packages for users: the solver and the paper's formulas.
 PACKAGES = ("planarimpact", "stronge1994.printed")
 # Types with a name of their own in the sources. A type comes before those that it contains.
 NAMED_TYPES = {
-    "Curves": csv_tables.Curves,
     "Numbers": arrays.Numbers,
     "ArrayLike": arrays.ArrayLike,
     "Array": arrays.Array,

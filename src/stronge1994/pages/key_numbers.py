@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from stronge1994 import csv_tables, reference_data
-from stronge1994.csv_tables import Columns, Curves, Row
-from stronge1994.curve_names import MODELS
+from stronge1994 import tables
 from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.ledger import finding, outcome
+from stronge1994.names import MODELS, PAPER
 from stronge1994.pages import ledger_page
-from stronge1994.verdict_tables import verdict_table
+from stronge1994.reference_data import Series
+from stronge1994.tables import Row, Table
+from stronge1994.verdict_table import Verdict
 
 Numbers = dict[str, float]
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -42,12 +43,12 @@ def of_run(
     `series` has the entries in source.yaml of the measured `pairs` of materials and of the
     finite-element `runs`.
     """
-    read = csv_tables.read
+    read = tables.read
     numbers = (
         _counts(verdicts, ledger)
         | _elastic(read(curves["fig5"]))
-        | _pairs(read(curves["inelastic"]), reference_data.arrays(series["pairs"]))
-        | _yielding(read(curves["yielding"]), reference_data.arrays(series["runs"]))
+        | _pairs(read(curves["inelastic"]), Series(**series["pairs"]).points())
+        | _yielding(read(curves["yielding"]), Series(**series["runs"]).points())
         | _rubber(read(curves["rubber_sphere"]))
         | _nature(measures)
     )
@@ -58,8 +59,8 @@ def of_run(
 
 def write(path: str, numbers: Numbers) -> None:
     """Write the numbers as a table."""
-    rows = [[name, f"{value:.12g}"] for name, value in numbers.items()]
-    csv_tables.write_rows(path, ["name", "value"], rows)
+    rows = [{"name": name, "value": f"{value:.12g}"} for name, value in numbers.items()]
+    tables.write_rows(path, rows, ["name", "value"])
 
 
 def _counts(verdicts: Sequence[Row], ledger: Sequence[Row]) -> Numbers:
@@ -67,7 +68,7 @@ def _counts(verdicts: Sequence[Row], ledger: Sequence[Row]) -> Numbers:
     rows = Counter(row["verdict"] for row in verdicts)
     published = Counter(row["verdict"] for row in verdicts if row["p"])
     entries, grades = Counter(row["verdict"] for row in ledger), outcome.grades(ledger)
-    numbers: Numbers = {f"rows.{verdict}": rows[verdict] for verdict in verdict_table.ORDER}
+    numbers: Numbers = {f"rows.{verdict}": rows[verdict] for verdict in Verdict}
     numbers |= {"rows.judged": len(verdicts) - rows["as before"]}
     numbers |= {"rows.published.agrees": published["agrees"], "ledger.entries": len(ledger)}
     numbers |= {f"ledger.{verdict}": entries[verdict] for verdict in ledger_page.STYLE}
@@ -76,16 +77,16 @@ def _counts(verdicts: Sequence[Row], ledger: Sequence[Row]) -> Numbers:
     return numbers
 
 
-def _elastic(curves: Curves) -> Numbers:
+def _elastic(curves: Table) -> Numbers:
     """Largest distance of the lumped model from the continuum at e = 1, and its incidence."""
-    lumped, continuum = curves["lumped"], curves["continuum"]
-    if not np.array_equal(lumped[X], continuum[X]):
+    lumped, continuum = (tables.select(curves, model=model) for model in ("lumped", "continuum"))
+    if not lumped[X].equals(continuum[X]):
         raise ValueError("Fig. 5: lumped model and continuum have other incidences")
-    distance = np.abs(lumped[W] - continuum[W])
-    return {"elastic.largest": distance.max(), "elastic.at": lumped[X][distance.argmax()]}
+    distance = (lumped[W] - continuum[W]).abs()
+    return {"elastic.largest": distance.max(), "elastic.at": lumped[X][distance.idxmax()]}
 
 
-def _pairs(curves: Curves, measured: Columns) -> Numbers:
+def _pairs(curves: Table, measured: Table) -> Numbers:
     """The measured pairs of materials, and chi-squared of each model in each trial of the figure.
 
     `failed` is the number of spreads of impacts with which a model fails; `least` and `most` are
@@ -93,7 +94,7 @@ def _pairs(curves: Curves, measured: Columns) -> Numbers:
     """
     trials = inelastic.trials(curves)
     spreads = [trial for trial in trials.values() if not trial.without and trial.share == 1]
-    least, second = np.sort(measured[E])[:2]
+    least, second = measured[E].nsmallest(2)
     numbers: Numbers = {"pairs.number": len(measured["pair"]), "pairs.spreads": len(spreads)}
     numbers |= {"pairs.least_e": least, "pairs.second_e": second}
     for model in MODELS:
@@ -108,18 +109,18 @@ def _pairs(curves: Curves, measured: Columns) -> Numbers:
             p = [fit(trial._replace(without=without)).p for trial in spreads]
             numbers[f"{name}{part}.failed"] = sum(value <= inelastic.SIGNIFICANCE for value in p)
     alone = inelastic.Trial(without=[pair for pair in measured["pair"] if pair != SOFT])
-    share = inelastic.goodness(curves, "lumped.hysteretic", measured, alone)
-    numbers[f"pairs.lumped.hysteretic.{SOFT}.chi2"] = share.value
-    row = int(np.flatnonzero(measured["pair"] == SOFT)[0])
-    numbers["pairs.soft.measured"] = measured[BETA_0][row]
-    numbers["pairs.soft.sigma"] = measured[inelastic.SIGMA][row]
+    share = inelastic.goodness(curves, PAPER, measured, alone)
+    numbers[f"pairs.{PAPER}.{SOFT}.chi2"] = share.value
+    soft = measured[measured["pair"] == SOFT].iloc[0]
+    numbers["pairs.soft.measured"] = soft[BETA_0]
+    numbers["pairs.soft.sigma"] = soft[inelastic.SIGMA]
     for model in MODELS:
-        own = curves[f"{model}, pairs"]
-        numbers[f"pairs.soft.{model}"] = own[BETA_0][own["pair"] == SOFT][0]
+        of_soft = {"variant": "pairs", "spread": inelastic.WHOLE, "pair": SOFT}
+        numbers[f"pairs.soft.{model}"] = tables.select(curves, model=model, **of_soft)[BETA_0][0]
     return numbers
 
 
-def _yielding(curves: Curves, runs: Columns) -> Numbers:
+def _yielding(curves: Table, runs: Table) -> Numbers:
     """Distances of each model from our finite elements, root mean square and largest."""
     e, friction = runs[E], runs["friction [1]"]
     # Runs to which the constant of the plastic law was fitted are no evidence.
@@ -128,21 +129,20 @@ def _yielding(curves: Curves, runs: Columns) -> Numbers:
     near = compared & (e >= NEAR_RESTITUTIONS[0]) & (e <= NEAR_RESTITUTIONS[1])
     numbers: Numbers = {}
     for model in MODELS:
-        off = curves[f"{model}, runs"][W] - runs[W]
+        off = tables.select(curves, model=model, variant="runs")[W] - runs[W]
         for part, kept in (("", compared), (".near", near)):
             numbers[f"yielding.{model}{part}.rms"] = np.sqrt(np.mean(np.square(off[kept])))
             numbers[f"yielding.{model}{part}.max"] = np.abs(off[kept]).max()
     return numbers
 
 
-def _rubber(curves: Curves) -> Numbers:
+def _rubber(curves: Table) -> Numbers:
     """Distances of e_t from the rubber sphere, root mean square; `small` are small incidences."""
     numbers: Numbers = {}
-    for name in (name for name in curves if name.endswith(", rms")):
-        model, columns = name.removesuffix(", rms"), curves[name]
-        small, all_impacts = columns["incidence_limit [mu v2(0)]"].argsort()
+    for model, own in tables.each(curves, "model", variant="rms"):
+        small, all_impacts = own["incidence_limit [mu v2(0)]"].argsort()
         for kind in ("distance", "from_velocity", "from_spin"):
-            means = columns[f"rms_{kind} [1]"]
+            means = own[f"rms_{kind} [1]"]
             numbers[f"rubber.{model}.{kind}"] = means[all_impacts]
             numbers[f"rubber.{model}.{kind}.small"] = means[small]
     return numbers

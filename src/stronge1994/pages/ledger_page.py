@@ -2,15 +2,17 @@
 
 import re
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from markupsafe import Markup
 
-from stronge1994.csv_tables import Row
+from stronge1994 import words
 from stronge1994.formulas import mathematical
 from stronge1994.ledger import finding, outcome
-from stronge1994.pages import names, templates
+from stronge1994.pages import templates
+from stronge1994.tables import Row
 
 # Classes of the style, by verdict, by grade, and by verdict in nature.
 STYLE = {
@@ -25,23 +27,6 @@ NATURE_STYLE = {
     finding.FAILS: "nature contradicted",
     finding.DEPENDS: "nature depends",
     finding.OPEN: "nature unknown",
-}
-# Impacts of the paper's sphere to which an entry refers: angle, friction, restitution, and the view
-# of the explorer.
-IN_EXPLORER = {
-    "slip-throughout-limit": (72.6, 0.5, 1, "velocity"),
-    "limit-falls-with-losses": (66, 0.5, 0.5, "velocity"),
-    "last-slip-reverses-after-slip": (58, 0.5, 0.5, "velocity"),
-    "restitution-change-falls": (56.3, 0.5, 0.5, "velocity"),
-    "practically-identical": (31.2, 0.5, 1, "velocity"),
-    "stick-in-compression": (66, 0.5, 1, "velocity"),
-    "still-moving-at-stick": (66, 0.5, 1, "velocity"),
-    "peak-after-stick": (66, 0.5, 1, "forces"),
-    "eq-32-late": (66, 0.5, 1, "forces"),
-    "peak-angle-0.18": (27.8, 0.18, 1, "forces"),
-    "eq-39": (14, 0.5, 1, "energy"),
-    "eq-40": (45, 0.5, 1, "energy"),
-    "largest-dissipation-angle": (54.6, 0.1, 1, "energy"),
 }
 # Entries and comparisons have a hyphen in their names.
 NAME = re.compile(r"(?:(?<=comparison )|(?<![\w./-]))[a-z_\d]+-[\w.-]*\w")
@@ -64,10 +49,10 @@ def linked_maths(entries: Collection[str], page: str = "") -> Callable[[str], Ma
         for found in NAME.finditer(text):
             name, link = found[0], Markup('<a href="{}#{}">{}</a>')
             if name in entries:
-                linked = link.format(page, name, names.entry(name))
+                linked = link.format(page, name, words.entry(name))
             elif text[: found.start()].endswith("comparison "):
-                figure = names.figure(name.partition("-")[0])
-                linked = link.format("report.html", name, f"{figure}, {names.comparison(name)}")
+                figure = words.figure(name.partition("-")[0])
+                linked = link.format("report.html", name, f"{figure}, {words.comparison(name)}")
             else:
                 continue
             html += mathematical(text[done : found.start()]) + linked
@@ -87,10 +72,10 @@ def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
     return causes
 
 
-def page(rows: Sequence[Row], symbols: str, template: Path) -> str:
+def page(rows: Sequence[Row], symbols: str, impacts: Mapping[str, Any], template: Path) -> str:
     """The page of the ledger's rows, by a template beside the style that it includes.
 
-    `symbols` explains their formulas.
+    `symbols` explains their formulas; `impacts` are those that the explorer shows, by entry.
     """
     environment = templates.environment(template.parent)
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
@@ -105,5 +90,5 @@ def page(rows: Sequence[Row], symbols: str, template: Path) -> str:
         causes=by_cause(rows),
         gravest=next(iter(outcome.GRADES)),
         style=style,
-        explorer=IN_EXPLORER,
+        explorer=impacts,
     )

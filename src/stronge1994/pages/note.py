@@ -6,10 +6,10 @@ Every number that a run computes is one of the key numbers.
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from stronge1994.csv_tables import Row
-from stronge1994.curve_names import is_of_paper
+from stronge1994 import figure_table
+from stronge1994.names import is_of_paper
 from stronge1994.pages import templates
-from stronge1994.verdict_tables import figure_table
+from stronge1994.tables import Row
 
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 # Smaller probabilities are shown as `< 0.001`.

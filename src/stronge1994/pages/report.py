@@ -11,26 +11,26 @@ from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import pandas as pd
 from markupsafe import Markup
 
-from stronge1994 import csv_tables, gate, versions
-from stronge1994.csv_tables import Row
-from stronge1994.curve_names import is_of_paper, unit
+from stronge1994 import figure_table, gate, tables, verdict_table, versions, words
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import VISIBLE_SHIFT
 from stronge1994.ledger import outcome
+from stronge1994.names import is_of_paper
 from stronge1994.pages import (
     key_numbers,
     ledger_page,
-    names,
     note,
     sources_page,
     templates,
     which_model,
 )
-from stronge1994.verdict_tables import figure_table, verdict_table
+from stronge1994.tables import Row
+from stronge1994.verdict_table import Verdict
 
 MARKS = {
     "wrong": "fails",
@@ -85,9 +85,9 @@ def page(values: TemplateValues, template: Path) -> str:
         lapsed=outcome.failing(values["ledger"]),
         grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
         verdict_counts=Counter(row["verdict"] for row in verdicts),
-        known=[row for row in verdicts if row["verdict"] in verdict_table.DIFFERENCES],
-        differences=verdict_table.DIFFERENCES,
-        fails=list(verdict_table.FAILS),
+        known=[row for row in verdicts if Verdict(row["verdict"]).differs],
+        differences=[verdict for verdict in Verdict if verdict.differs],
+        fails=[verdict for verdict in Verdict if verdict.fails],
         figure_table_rows=figure_table.of_run(verdicts),
         marks=MARKS,
         verdict_meaning=MEANING,
@@ -98,7 +98,7 @@ def page(values: TemplateValues, template: Path) -> str:
 def measured(row: Row) -> Markup:
     """How large the distance of a row of the verdict table is, its unit as a formula."""
     value, _, stated = row["stated"].partition(" ")
-    shown = {"stated": f"{value}{unit(stated)}", "unit": unit(row["unit"]).strip()}
+    shown = {"stated": f"{value}{words.unit(stated)}", "unit": words.unit(row["unit"]).strip()}
     return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
 
 
@@ -115,26 +115,26 @@ def figure(
     name: str,
     svg: bytes,
     caption: str,
-    residuals: list[Row],
+    residuals: tables.Table,
     verdicts: list[Row],
     has_slide: bool,
 ) -> TemplateValues:
     """Values of the template for one figure."""
     rows = [row for row in verdicts if row["figure"] == name]
-    strips = draw_residuals.strips(residuals, {row["comparison"]: row for row in rows})
+    strips = draw_residuals.strips(residuals, rows)
     return {
-        "title": names.figure(name),
+        "title": words.figure(name),
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
         "rows": rows,
-        "has_residuals": bool(residuals),
+        "has_residuals": len(residuals) > 0,
         "has_slide": has_slide,
         "strips": templates.embedded(_svg(strips)) if strips else None,
     }
 
 
-def _svg(strips: Mapping[draw_residuals.Strip, draw_residuals.Points]) -> bytes:
+def _svg(strips: list[tables.Table]) -> bytes:
     file = io.BytesIO()
     house_style.save(draw_residuals.draw(strips), file)
     return file.getvalue()
@@ -166,26 +166,29 @@ def write(
     sources: Mapping[str, Any],
     stated: Mapping[str, Mapping[str, Any]],
     symbols: str,
+    impacts: Mapping[str, Any],
     rows: Collection[str],
     entries: Collection[str],
 ) -> None:
     """Write all pages and the tables that belong to them; files and settings are those of the rule.
 
     `captions` are those of the figures, `slides` names those that have one. `sources` holds
-    data/*/source.yaml, `stated` the series of which the note states numbers, `symbols` those of the
-    ledger; `rows` and `entries` are as in `gate.faults`.
+    data/*/source.yaml, `stated` the series of which the note states numbers. `symbols` and
+    `impacts` are those of the ledger; `rows` and `entries` are as in `gate.faults`.
     """
     verdicts = verdict_table.gather(given.verdicts)
-    csv_tables.write_table(made.verdicts, verdicts, verdict_table.COLUMNS)
-    tables = (given.ledger, given.in_nature, given.which_model)
-    ledger, measures, answers = (csv_tables.read_rows(path) for path in tables)
+    tables.write_rows(made.verdicts, verdicts, verdict_table.COLUMNS)
+    ledger, measures = map(tables.read_rows, (given.ledger, given.in_nature))
     curves = {Path(path).stem: path for path in given.curves}
     numbers = key_numbers.of_run(verdicts, ledger, measures, curves, stated)
     key_numbers.write(made.numbers, numbers)
-    copied = [made.verdicts, given.trade, given.which_model, *given.curves, *given.residuals]
+    trade = tables.read(curves["trade"])
+    answers = which_model.answers(trade)
+    answers.to_csv(made.which_model, index=False, lineterminator="\n")
+    copied = [made.verdicts, made.which_model, *given.curves, *given.residuals]
     copy_tables(made.tables, copied)
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
-    residuals = {Path(path).stem: csv_tables.read_rows(path) for path in given.residuals}
+    residuals = {Path(path).stem: pd.read_csv(path) for path in given.residuals}
     shown = [_with_formulas(row, config) for row in verdicts]
     figures = {
         name: figure(name, picture, captions[name], residuals[name], shown, name in slides)
@@ -199,7 +202,7 @@ def write(
         "captions": {
             name: (folder / f"{name}.rst").read_text("utf-8").strip() for name in SECTIONS
         },
-        "cases": which_model.cases(answers),
+        "cases": which_model.cases(answers, trade),
         "n": numbers,
         "significance": config["significance"],
         "run": run,
@@ -209,7 +212,7 @@ def write(
         made.report: page(values, folder / "report.html"),
         made.sources: sources_page.page(sources, config, run, folder / "sources.html"),
         made.note: note.page(numbers, verdicts, pictures, folder / "note.html"),
-        made.ledger: ledger_page.page(ledger, symbols, folder / "ledger.html"),
+        made.ledger: ledger_page.page(ledger, symbols, impacts, folder / "ledger.html"),
     }
     for path, text in pages.items():
         Path(path).write_text(text, encoding="utf-8")

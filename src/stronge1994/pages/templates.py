@@ -5,23 +5,22 @@ from pathlib import Path
 
 import jinja2
 
-from stronge1994 import curve_names
+from stronge1994 import words
 from stronge1994.formulas import mathematical, number
-from stronge1994.pages import names
 
 # Folder of the theme and the bar of pages, which all pages share.
 SHARED = Path(__file__).parents[3] / "workflow/report"
 FILTERS = {
     "maths": mathematical,
     "number": number,
-    "title_of": names.figure,
-    "comparison_name": names.comparison,
-    "source_name": names.source,
-    "series_name": names.series,
-    "entry_name": names.entry,
-    "column_name": curve_names.column,
-    "unit": curve_names.unit,
-    "sentence": names.sentence,
+    "title_of": words.figure,
+    "comparison_name": words.comparison,
+    "source_name": words.source,
+    "series_name": words.series,
+    "entry_name": words.entry,
+    "column_name": words.column,
+    "unit": words.unit,
+    "sentence": words.sentence,
 }
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from planarimpact.ground.arrays import Numbers
+from planarimpact.common.arrays import Numbers
 
 
 def kinetic_energy(

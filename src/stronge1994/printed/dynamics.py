@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
 
 
 def eq_1_inverse_mass(mass: Numbers, gyration: Numbers, x1: Numbers, x2: Numbers) -> Array:

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground import checks
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
-from planarimpact.ground.results import EventKind
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.results import EventKind
 from stronge1994.printed import dissipation, dynamics, peak_force, slip
 
 

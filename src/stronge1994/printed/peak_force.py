@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.common.arrays import Array, Numbers
 
 
 def eq_28_normal(slope: Numbers) -> Array:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.common.arrays import Array, Numbers
 from stronge1994.printed.dynamics import eq_7b_velocity, eq_7c_force, restitution_angle
 
 

@@ -7,28 +7,38 @@ for each series that is not awaited.
 import copy
 import functools
 import math
-import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
-
-from planarimpact.ground import checks, csv_text
-from stronge1994 import csv_tables
-from stronge1994.csv_tables import Columns
+from planarimpact.common import checks
 from stronge1994.reference_data import strict_yaml
+from stronge1994.reference_data.series import (
+    Axis,
+    Fact,
+    Series,
+    SourceError,
+    of,
+    text_of,
+)
+
+__all__ = [
+    "Axis",
+    "Fact",
+    "Series",
+    "SourceError",
+    "load",
+    "load_all",
+    "load_yaml",
+    "of",
+    "refuse_invalid",
+    "text_of",
+]
 
 # Contents of a source.yaml; a loaded series also has its `path`.
 Source: TypeAlias = dict[str, Any]
-Series: TypeAlias = Mapping[str, Any]
-Axis: TypeAlias = Mapping[str, Any]
 Schema: TypeAlias = Mapping[str, Any]
 
-# float() would also take `1_000`, `nan` and digits of other scripts.
-NUMBER = re.compile(r"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?")
-# Sigmas by which a value may lie outside the range of its axis.
-MOST_SIGMAS_OUTSIDE = 3
 # Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
 # A measured series may have a larger one: that is how it was measured.
 LARGEST_SIGMA = 0.01
@@ -56,22 +66,18 @@ def _validator() -> Any:
     return jsonschema.validators.extend(draft, {"ascending": _ascends}, type_checker=types)
 
 
-class SourceError(Exception):
-    """Something in data/ contradicts source.yaml or its schema."""
-
-
 def load(folder: Path, schema: Schema) -> Source:
     """Load and check a folder of data/; each series gets its `path`, None while awaited."""
     path = folder / "source.yaml"
     source = load_yaml(path)
     refuse_invalid(source, schema, path)
     for name, series in source.get("series", {}).items():
-        for where, axis in _named_axes(series):
+        for where, axis in Series(**series).axes.items():
             _refuse_axis(f"{path}: series.{name}.{where}", axis, series["kind"])
         series["path"] = None
         if series["kind"] != "awaited":
             series["path"] = str(folder / f"{name}.csv")
-            count = len(next(iter(arrays(series).values())))
+            count = len(Series(**series).points())
             if count != series.get("points"):
                 where = f"{path}: series.{name}.points = {series.get('points')}"
                 raise SourceError(f"{where}: {series['path']} has {count} points")
@@ -101,15 +107,17 @@ def _visible(folder: Path) -> set[str]:
 
 def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
     """Refuse an axis whose numbers contradict each other, which a schema cannot see."""
-    low, high = axis["range"]
+    low, high = axis.range
     if not low < high:
-        raise SourceError(f"{where}.range = {axis['range']}: the first number must be the smaller")
-    if isinstance(axis["sigma"], str) or kind == "measured":
+        raise SourceError(
+            f"{where}.range = [{low:g}, {high:g}]: the first number must be the smaller"
+        )
+    if isinstance(axis.sigma, str) or kind == "measured":
         return
     most = LARGEST_SIGMA * (high - low)
-    if axis["sigma"] > most:
+    if axis.sigma > most:
         raise SourceError(
-            f"{where}.sigma = {axis['sigma']:g}: allowed is up to {most:g}, a hundredth of the "
+            f"{where}.sigma = {axis.sigma:g}: allowed is up to {most:g}, a hundredth of the "
             f"range {low:g} to {high:g}; with more the series would judge nothing"
         )
 
@@ -123,16 +131,6 @@ def load_yaml(path: str | Path) -> dict[str, Any]:
 
 
 _parsed = functools.cache(strict_yaml.load)  # a start reads some files twice
-
-
-def text_of(path: str | Path) -> str:
-    """Text of a file in UTF-8; of one that is none a `SourceError` names the line."""
-    try:
-        return csv_text.decoded(Path(path).read_bytes())
-    except OSError as error:
-        raise SourceError(f"{path}: {error.strerror}") from None
-    except ValueError as error:
-        raise SourceError(f"{path}, {error}") from None
 
 
 def load_all(data: str | Path, schema: Schema) -> dict[str, Source]:
@@ -170,82 +168,3 @@ def _leaves(node: Any, where: str = "") -> Iterator[tuple[str, Any]]:
             yield from _leaves(value, f"{where}.{key}" if where else f"{key}")
     else:
         yield where, node
-
-
-def column_name(axis: Axis) -> str:
-    """Column header of an axis, unit in brackets if it has one."""
-    return f"{axis['column']} [{axis['unit']}]" if axis["unit"] else axis["column"]
-
-
-def ordinates(series: Series) -> list[Axis]:
-    """The y axes of a series: one, or a list of them."""
-    return series["y"] if isinstance(series["y"], list) else [series["y"]]
-
-
-def _named_axes(series: Series) -> Iterator[tuple[str, Axis]]:
-    """All axes of a series, and where each stands in source.yaml."""
-    several = isinstance(series["y"], list)
-    yield "x", series["x"]
-    for place, axis in enumerate(ordinates(series)):
-        yield f"y.{place}" if several else "y", axis
-    for place, axis in enumerate(series.get("given", [])):
-        yield f"given.{place}", axis
-
-
-def sigma_column(axis: Axis) -> str | None:
-    """Column header of the uncertainties of a series; None where one number holds for all.
-
-    >>> sigma_column({"unit": "1", "sigma": "friction_uncertainty"})
-    'friction_uncertainty [1]'
-    """
-    if not isinstance(axis["sigma"], str):
-        return None
-    return column_name({"column": axis["sigma"], "unit": axis["unit"]})
-
-
-def arrays(series: Series) -> Columns:
-    """Read and check one series: its columns, numbers as float64, labels as text.
-
-    `series` is its entry in source.yaml, with its `path`. If there are several y axes, some of
-    their cells may be empty: these become nan. A `SourceError` names file, line, column and value.
-    """
-    path, labels = series["path"], series.get("labels", [])
-    axes = {column_name(axis): axis for _, axis in _named_axes(series)}
-    several = isinstance(series["y"], list)
-    may_be_empty = {column_name(axis) for axis in series["y"]} if several else set()
-    for axis in list(axes.values()):
-        low, high = axis["range"]
-        printed = sigma_column(axis)
-        if printed:
-            axes[printed] = {"range": [0.0, high - low], "sigma": 0.0}
-    try:
-        rows = csv_tables.numbered_rows(text_of(path), path, [*labels, *axes])
-    except ValueError as error:
-        raise SourceError(str(error)) from None
-    if not rows:
-        raise SourceError(f"{path}: no points")
-    columns: Columns = {label: np.array([row[label] for _, row in rows]) for label in labels}
-    for column, axis in axes.items():
-        columns[column] = np.full(len(rows), math.nan)
-        for place, (line, row) in enumerate(rows):
-            if row[column] or column not in may_be_empty:
-                where = f"{path}, line {line}, column '{column}'"
-                columns[column][place] = _number(row[column], axis, where)
-    return columns
-
-
-def _number(cell: str, axis: Axis, where: str) -> float:
-    """A decimal number, at most a little outside the range of its axis."""
-    text = cell.strip()
-    if not NUMBER.fullmatch(text):
-        raise SourceError(f"{where}: {ascii(text)} is not a decimal number such as -0.05")
-    value = float(text)
-    low, high = axis["range"]
-    # Values with an uncertainty of their own lie in the range: no axis of a picture was read.
-    beyond = 0.0 if isinstance(axis["sigma"], str) else MOST_SIGMAS_OUTSIDE * axis["sigma"]
-    if not low - beyond <= value <= high + beyond:
-        raise SourceError(
-            f"{where}: {text} is outside {low:g} to {high:g} by more than {MOST_SIGMAS_OUTSIDE} "
-            f"sigmas, {beyond:g}"
-        )
-    return value

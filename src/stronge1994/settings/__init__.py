@@ -7,7 +7,7 @@ rule, and silently takes its old output for a source file.
 from collections.abc import Mapping
 from typing import Any
 
-from stronge1994 import reference_data
+from stronge1994.reference_data import Series
 from stronge1994.settings import figures
 from stronge1994.settings.config import SHARED, Config, Entry, Inventory, reference, table_of
 
@@ -109,7 +109,7 @@ def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str
     named = comparisons(config, figure).values() if stated.get("nodes") else ()
     exact = [reference(inventory, c["reference"]) for c in named if c["metric"] == "vertices"]
     return {
-        entry["path"]: reference_data.column_name(entry["x"])
+        entry["path"]: Series(**entry).x.name
         for entry in exact
         if entry["path"] and "event" not in entry.get("labels", [])
     }

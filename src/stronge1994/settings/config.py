@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
-from stronge1994.curve_names import SCENE
-from stronge1994.reference_data import strict_yaml
+from stronge1994.names import SCENE
+from stronge1994.reference_data import Series, strict_yaml
 from stronge1994.settings import figures
 
 Config: TypeAlias = dict[str, Any]  # what the config files hold
@@ -151,14 +151,15 @@ def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> No
     known = reference(inventory, comparison["reference"], where)
     if ("statement" in known) != (metric == "landmark"):
         raise ConfigError(f"{where}: metric {metric}: a landmark needs a fact, all others a series")
-    if metric == "distance" and not ("curve" in comparison or "curve" in known.get("labels", [])):
+    if metric == "distance" and not ("curve" in comparison or known.get("labels")):
         raise ConfigError(f"{where}: metric distance needs `curve`")
     for label in comparison.get("points", {}):
         if label not in known.get("labels", []):
             raise ConfigError(f"{where}.points.{label}: no label of {comparison['reference']}")
     for key, size in comparison.get("allowance", {}).items():
-        for axis in [known["x"]] if key == "x" else reference_data.ordinates(known):
-            low, high = axis["range"]
+        series = Series(**known)
+        for axis in [series.x] if key == "x" else series.ordinates:
+            low, high = axis.range
             if size > LARGEST_ALLOWANCE * (high - low):
                 raise ConfigError(
                     f"{where}.allowance.{key} = {size:g}: allowed is up to "
@@ -189,4 +190,7 @@ def reference(inventory: Inventory, name: str, where: str = "reference") -> Entr
     for kind in ("series", "facts"):
         if entry in inventory.get(source, {}).get(kind, {}):
             return inventory[source][kind][entry]
-    raise ConfigError(f"{where}: {name!a} is neither a series nor a fact in data/")
+    known = inventory.get(source, {})
+    there = [f"{source}/{one}" for kind in ("series", "facts") for one in known.get(kind, {})]
+    allowed = f"; allowed are {', '.join(there or inventory)}"
+    raise ConfigError(f"{where}: {name!a} is neither a series nor a fact in data/{allowed}")

@@ -110,11 +110,12 @@ def expanded(name: str, entry: Mapping[str, Any]) -> Iterator[tuple[str, dict[st
     `each` is a list of cases, or lists of which every combination is a case. A value of a case
     replaces its name in braces in all texts; a key of a comparison is also entered into it.
 
-    >>> each = {"model": ["lumped"], "regime": ["initial stick", "slip throughout"]}
-    >>> for comparison in expanded("{model}-{regime}", {"each": each, "curve": "{model}, rubber"}):
+    >>> entry = {"curve": {"model": "lumped", "e": "{e}"}}
+    >>> entry["each"] = {"e": [0.5], "regime": ["initial stick", "slip throughout"]}
+    >>> for comparison in expanded("e-{e}-{regime}", entry):
     ...     print(*comparison)
-    lumped-initial-stick {'curve': 'lumped, rubber', 'regime': 'initial stick'}
-    lumped-slip-throughout {'curve': 'lumped, rubber', 'regime': 'slip throughout'}
+    e-0.5-initial-stick {'curve': {'model': 'lumped', 'e': 0.5}, 'regime': 'initial stick'}
+    e-0.5-slip-throughout {'curve': {'model': 'lumped', 'e': 0.5}, 'regime': 'slip throughout'}
     """
     common = {key: value for key, value in entry.items() if key != "each"}
     keys = definitions()["comparison"]["properties"]
@@ -131,6 +132,8 @@ def _filled(node: Any, case: Mapping[str, Any]) -> Any:
     if isinstance(node, dict):
         return {key: _filled(value, case) for key, value in node.items()}
     if isinstance(node, str):
+        if node[1:-1] in case and node == f"{{{node[1:-1]}}}":
+            return case[node[1:-1]]  # a number stays one
         for key, value in case.items():
             node = node.replace(f"{{{key}}}", str(value))
     return node

@@ -19,15 +19,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.results import Regime
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.motion import MOST_STEPS, NormalMotion, places
 from planarimpact.continuum.inelastic.plastic import ElasticInShear, PlasticMotion
 from planarimpact.continuum.inelastic.viscous import ViscousMotion
 from planarimpact.continuum.refinement import Solved
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Integers
-from planarimpact.ground.results import Regime
 
 # The normal motion and the springs, by what takes the energy; the last one for comparison alone.
 MOTIONS: dict[str, type[NormalMotion]] = {

@@ -7,9 +7,9 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.continuum import refinement
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Booleans, Integers
 
 MOST_STEPS = 2**13
 # The instants of compression are divided into this many parts, and slip ends between two of them.

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers
 
 # Places at which a polynomial through a few instants is evaluated.
 SAMPLES = 49

@@ -19,11 +19,11 @@ from typing import Any
 
 import numpy as np
 
+from planarimpact.common import cubics, roots, sliding
+from planarimpact.common.arrays import Array, Booleans
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.motion import NormalMotion, Springs
-from planarimpact.ground import cubics, roots, sliding
-from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import yielding as law
 
 # Places among which the start of stick in plastic compression is first sought.
@@ -62,11 +62,11 @@ class PlasticMotion(NormalMotion):
         self._last_share = self._loading.share_of_hertz(self._largest)
 
     def springs(self) -> Springs:
-        """As in `NormalMotion`."""
+        """Springs without deflection, which flow while the contact yields."""
         return PlasticSprings(self)
 
     def steps_needed(self, beta: Array, zeta2: Array) -> Array:
-        """As in `NormalMotion`: the oscillation, and the last flow of compression.
+        """Steps that resolve the oscillation and the last flow of compression.
 
         In a step of the angle a, at the end of compression, the approach grows by its share a^2.
         Where all of that flows at once, springs do not load, and the body may slide only after it.
@@ -76,14 +76,14 @@ class PlasticMotion(NormalMotion):
         return np.maximum(oscillation, np.pi * np.sqrt(most_flow / MOST_FLOW))
 
     def place(self, velocity: Array) -> Array:
-        """As in `NormalMotion`: the angle whose sine is the radius, over a right angle."""
+        """Angle over pi/2, whose sine is the radius at a velocity over the largest radius."""
         depth = np.minimum(self._loading.approach(velocity), self._largest)
         angle = np.arctan2(np.sqrt(depth), np.sqrt(self._largest - depth))
         back = self._unloading.phase(np.minimum(velocity, 0.0), self.restitution)
         return np.where(velocity > 0, angle, np.pi - back) / (np.pi / 2)
 
     def put_springs(self, places: Array) -> None:
-        """As in `NormalMotion`."""
+        """Put springs, and instants, at the places: shares of pi/2, whose sine is the radius."""
         angle = places * (np.pi / 2)
         self.radius = np.sqrt(self._largest) * np.sin(angle)
         rate = np.sqrt(self._largest) * np.cos(angle) * (np.pi / 2)
@@ -104,7 +104,7 @@ class PlasticMotion(NormalMotion):
         self._share = np.concatenate([share, np.broadcast_to(self._last_share, return_force.shape)])
 
     def density(self, instant: int) -> Array:
-        """As in `NormalMotion`: h (a^2 - r^2)."""
+        """Normal force density h (a^2 - r^2) of the springs that touch."""
         square = self.radius[: self.edge(instant) + 1] ** 2
         return self._share[instant] * (square[-1] - square)
 
@@ -130,11 +130,11 @@ class PlasticMotion(NormalMotion):
         return square, np.where(velocity > 0, share, self._last_share)
 
     def instants_after_slip(self, steps: int) -> int:
-        """As in `NormalMotion`: friction grows on, turns and falls within a step."""
+        """Instants after first slip, where friction grows on, turns and falls within a step."""
         return 2 + int(steps * AFTER)
 
     def peak_after_slip(self, knots: Array) -> Array:
-        """As in `NormalMotion`, by the limits of the springs, as one after the other sticks.
+        """Largest friction soon after the first slip, while one spring after the other sticks.
 
         Approach and displacement are cubics between the knots.
         """
@@ -172,7 +172,7 @@ class PlasticMotion(NormalMotion):
         return self._last_share * self._largest / self._unloading.springs_back
 
     def end_of_first_slip(self, x: Array, beta: Array, zeta2: Array) -> Array:
-        """As in `NormalMotion`, where w is zeta^2 v times the pull of a spring that slides."""
+        """Normal velocity where w is zeta^2 v times the pull of a spring that slides: slip ends."""
         elastic = super().end_of_first_slip(x, beta, zeta2)
         unloading = super().end_of_first_slip(x, beta, zeta2 * self._pull_of_unloading())
         end = np.where(elastic > 0, elastic, np.minimum(unloading, 0.0))
@@ -197,11 +197,11 @@ class PlasticMotion(NormalMotion):
         return end
 
     def slides_from(self, beta: Array, zeta2: Array) -> Array:
-        """As in `NormalMotion`: a contact that yields may stick in the middle for a while.
+        """Incidence from which a contact slides throughout, which may stick while it yields.
 
-        It does not if w = x - beta (1 - v) is never below zeta^2 v times the pull in the middle. So
-        the limit is the largest value of beta - v (beta - zeta^2 pull), if that is larger than the
-        limit at the end of unloading. Its derivative changes sign once.
+        It does not stick if w = x - beta (1 - v) is never below zeta^2 v times the pull in the
+        middle. So the limit is the largest value of beta - v (beta - zeta^2 pull), if larger than
+        that at the end of unloading. The derivative of this value changes sign once.
         """
         at_end = sliding.limit_alike(beta, zeta2 * self._pull_of_unloading(), self.restitution)
         limit = np.maximum(zeta2, at_end)
@@ -236,7 +236,7 @@ class PlasticSprings(Springs):
     _motion: PlasticMotion
 
     def slide(self, k: int, which: Booleans, u: Array) -> None:
-        """As in `Springs`."""
+        """Put contacts in the state of gross slip: the density of each spring is at its limit."""
         limit = self._motion.density(k)
         for values in (self._limit, self._density):
             values[:, which] = limit[:, which]
@@ -244,7 +244,7 @@ class PlasticSprings(Springs):
     def move(
         self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
     ) -> Array:
-        """As in `Springs`.
+        """Tangential force at instant k by springs that flow while the contact yields; a trial.
 
         Without slip the density of a spring follows q' = u' - q times the rate of flow. In the
         direction g the spring slips while g times that density exceeds the limit more and more.
@@ -304,7 +304,7 @@ class PlasticSprings(Springs):
         return self._sum(k)
 
     def settle(self, k: int) -> Array:
-        """As in `Springs`; the work follows from the velocity at the end."""
+        """Keep the last trial; return 0, as the work follows from the velocity at the end."""
         self._keep(self._slips)
         return np.zeros_like(self.stick_radius)
 

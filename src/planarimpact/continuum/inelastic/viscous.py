@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from planarimpact.common.arrays import Array, Booleans
 from planarimpact.continuum.inelastic.motion import MOST_STEPS, NormalMotion, Springs
-from planarimpact.ground.arrays import Array, Booleans
 from planarimpact.normal_impact import kelvin_voigt as law
 
 
@@ -37,7 +37,7 @@ class ViscousMotion(NormalMotion):
         self._compression, self._after = compression.taken(which), after.taken(which)
 
     def place(self, velocity: Array) -> Array:
-        """As in `NormalMotion`: the share of compression in sigma.
+        """Share of compression in sigma at the radius of contact of a velocity.
 
         Evenly spread over sigma, the radii are dense where the contact is largest, and the
         instants where it is smallest.
@@ -49,7 +49,7 @@ class ViscousMotion(NormalMotion):
         return np.minimum(share, 1.0)  # near 1 the radius hardly changes
 
     def put_springs(self, places: Array) -> None:
-        """As in `NormalMotion`."""
+        """Put springs, and instants, at the places: shares of compression in sigma."""
         compression, after = self._compression, self._after
         self.radius, pace, begin = compression.at(places * compression.end)
         self.radius[0] = pace[-1] = 0.0
@@ -66,11 +66,11 @@ class ViscousMotion(NormalMotion):
         self.force = 2 * edge * (self._depth - edge * edge / 3)
 
     def springs(self) -> Springs:
-        """As in `NormalMotion`."""
+        """Springs with dashpots, without deflection."""
         return ViscousSprings(self)
 
     def steps_needed(self, beta: Array, zeta2: Array) -> Array:
-        """As in `NormalMotion`: the oscillation, and how fast the dashpots damp it at most.
+        """Steps that resolve the oscillation and the fastest damping by the dashpots.
 
         Heun's method is unstable if a step is twice the time of damping; here it is at most that
         time. It may be longer where slip frees the springs, so that damping refuses no impact.
@@ -81,7 +81,7 @@ class ViscousMotion(NormalMotion):
         return np.maximum(super().steps_needed(beta, zeta2), np.minimum(damping, MOST_STEPS))
 
     def density(self, instant: int) -> Array:
-        """As in `NormalMotion`: D - r^2."""
+        """Normal force density D - r^2 of the springs that touch."""
         return self._depth[instant] - self.radius[: self.edge(instant) + 1] ** 2
 
     def take(self, which: Any) -> "ViscousMotion":
@@ -113,7 +113,7 @@ class ViscousSprings(Springs):
         self._next = self._memory
 
     def slide(self, k: int, which: Booleans, u: Array) -> None:
-        """As in `Springs`: q + tau q' = D - r^2, so that q = d - r^2."""
+        """Put contacts in the state of gross slip: q + tau q' = D - r^2, so that q = d - r^2."""
         motion = self._motion
         deflection = motion.approach[k] - motion.radius[: len(self._memory)] ** 2
         limit = deflection + motion.tau * motion.velocity[k]
@@ -125,7 +125,7 @@ class ViscousSprings(Springs):
     def move(
         self, k: int, step: Array, start: tuple[Array, Array], end: tuple[Array, Array]
     ) -> Array:
-        """As in `Springs`."""
+        """Tangential force at instant k by springs that relax beyond their limit; a trial."""
         tau, limit = self._motion.tau, self._motion.density(k)
         pull, later = (u + tau * rate for u, rate in (start, end))
         count = min(len(limit), len(self._memory))
@@ -138,7 +138,7 @@ class ViscousSprings(Springs):
         return self._sum(k)
 
     def settle(self, k: int) -> Array:
-        """As in `Springs`."""
+        """Keep the last trial; return the work of friction over zeta^2 in its step."""
         memory, (_, density) = self._next, self._tried
         count = min(len(memory), len(self._memory))
         slid = self._memory[:count] - memory[:count]

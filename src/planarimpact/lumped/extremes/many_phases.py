@@ -21,7 +21,7 @@ rounding of nu down to `last_phase`; from there on the phases are followed.
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, Booleans, Numbers
+from planarimpact.common.arrays import Array, Booleans, Numbers
 
 # The least number of phases that a skip must save. It takes the time of some fifty half-waves.
 LEAST_GAIN = 200.0

@@ -6,14 +6,14 @@ Three changes, none of which alters a digit of an ordinary answer:
   number, all are multiplied by a power of 2 below 1.
 - Far below zeta^2 and sqrt(beta zeta^2) forces and velocities are in proportion to the incidence.
   A tiny incidence is multiplied by a power of 2, so that no force loses digits to underflow.
-- A stiffness ratio that is tiny beside beta counts as a somewhat larger one, so that squares of
+- A stiffness ratio that is tiny compared with beta counts as a somewhat larger one: squares of
   angles do not underflow. In stick the velocity is at most sqrt(beta zeta^2), which is 0 to 1e-140
   of beta.
 """
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 from planarimpact.lumped import stick_slip
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 

@@ -29,10 +29,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planarimpact.ground import checks, sliding
-from planarimpact.ground.arrays import Array, Integers
-from planarimpact.ground.checks import ConvergenceError
-from planarimpact.ground.results import EventKind, History, Regime
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.checks import ConvergenceError
+from planarimpact.common.results import EventKind, History, Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 from planarimpact.lumped.viscous.elements import Elements, alike
 from planarimpact.lumped.viscous.searches import Slip, Stick, phase_end, take

@@ -35,9 +35,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact.ground import roots
-from planarimpact.ground.angles import HALF_PI, sin_cos
-from planarimpact.ground.arrays import Array, Integers
+from planarimpact.common import roots
+from planarimpact.common.angles import HALF_PI, sin_cos
+from planarimpact.common.arrays import Array, Integers
 
 # Restitution of a critically damped element, xi = 1.
 CRITICAL = np.exp(-2)

@@ -40,8 +40,8 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from planarimpact.ground import roots
-from planarimpact.ground.arrays import Array, Booleans, Integers
+from planarimpact.common import roots
+from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.lumped.viscous.elements import Elements
 
 # What rounding may take from a margin, as a share of its terms.
@@ -147,14 +147,14 @@ class Slip(NamedTuple):
         return np.exp((self.start - time) / (2 * self.elements.xi))
 
     def state(self, time: Array) -> tuple[Array, Array, Array, Array]:
-        """As in `Stick`."""
+        """N, T, w and s at these times; T is N, as the contact slips."""
         tau, zeta2 = 2 * self.elements.xi, self.elements.zeta2
         force, v = self.elements.motion(time)
         spring = zeta2 * (force - tau * v) + tau * self.transient * self.decay(time)
         return force, force, self.constant + self.elements.beta * v, spring
 
     def first_piece(self) -> tuple[Array, Booleans]:
-        """As in `Stick`. T does not vanish, and where w_s falls at first it falls all along."""
+        """Infinity, as T never vanishes; False, as w_s falls all along if it falls at first."""
         return np.full_like(self.start, np.inf), np.zeros(self.start.size, bool)
 
     def slip_velocity(self, v: Array, time: Array) -> Array:

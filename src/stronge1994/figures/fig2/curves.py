@@ -1,16 +1,15 @@
 """Fig. 2: force against deflection of the normal and the tangential element."""
 
-import numpy as np
+from stronge1994 import tables
+from stronge1994.tables import Table
 
-from stronge1994.csv_tables import Curves
 
-
-def curves(stiffness_ratio: float, restitution: float) -> Curves:
+def curves(stiffness_ratio: float, restitution: float) -> Table:
     """Loading and unloading lines in the units of Table 1.
 
     The normal element unloads with the slope 1/e^2; the tangential one has the slope 1/zeta^2.
 
-    >>> unloading = curves(1.21, 0.5)["normal unloading"]
+    >>> unloading = tables.select(curves(1.21, 0.5), variant="normal unloading")
     >>> unloading["deflection [v2(0)/Omega]"].tolist()  # 1 - e^2 remains
     [1.0, 0.75]
     """
@@ -20,6 +19,7 @@ def curves(stiffness_ratio: float, restitution: float) -> Curves:
         "tangential": ([-1.0, 1.0], [-1.0 / stiffness_ratio, 1.0 / stiffness_ratio]),
     }
     columns = ("deflection [v2(0)/Omega]", "force [m2 Omega v2(0)]")
-    return {
-        name: dict(zip(columns, map(np.array, line), strict=True)) for name, line in lines.items()
-    }
+    return tables.join(
+        tables.curve(dict(zip(columns, line, strict=True)), "lumped", variant)
+        for variant, line in lines.items()
+    )

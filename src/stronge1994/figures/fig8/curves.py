@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from planarimpact import bodies, lumped
-from stronge1994.csv_tables import Curves
+from stronge1994 import tables
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
+from stronge1994.tables import Table
 
 
 def curves(
@@ -19,7 +20,7 @@ def curves(
     ball: dict[str, float],
     samples: int,
     nodes: Nodes = NO_NODES,
-) -> Curves:
+) -> Table:
     """Peak forces at one speed of incidence.
 
     The paper states no contact stiffness. Omega is taken so that the peak force at normal incidence
@@ -27,8 +28,8 @@ def curves(
     a contact is negative where friction turns round.
 
     >>> steel = dict(radius=0.0127, young_modulus=207e9, poisson_ratio=0.3)
-    >>> named = curves(3.5, 1.21, (0, 90), 0.18, 0.048, 0.101, steel, 91)
-    >>> round(float(named["normal"]["peak_force [N]"][0]))
+    >>> table = curves(3.5, 1.21, (0, 90), 0.18, 0.048, 0.101, steel, 91)
+    >>> round(tables.select(table, variant="normal")["peak_force [N]"][0])
     94
     """
     metal = bodies.Material(ball["young_modulus"], ball["poisson_ratio"])
@@ -43,7 +44,7 @@ def curves(
     peak = lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
     lowest = [lumped.history(value, mass_ratio, stiffness_ratio).friction.min() for value in x]
     normal = hertz * np.cos(np.radians(theta))
-    return {
+    largest = {
         "normal": {"angle [deg]": theta, "peak_force [N]": normal},
         "friction": {
             "angle [deg]": theta,
@@ -52,3 +53,4 @@ def curves(
             "lowest_friction [N]": friction * normal * np.array(lowest),
         },
     }
+    return tables.join(tables.curve(own, "lumped", force) for force, own in largest.items())

@@ -2,9 +2,10 @@
 
 from matplotlib.figure import Figure
 
-from stronge1994.csv_tables import Curves
+from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Points, Settings, Style
+from stronge1994.tables import Table
 
 X, Y = "angle [deg]", "peak_force [N]"
 TANGENTIAL: Style = {
@@ -14,6 +15,19 @@ TANGENTIAL: Style = {
 }
 # The paper draws tangential forces this many times larger, on a second axis.
 ENLARGED = 2
+WHITE: Style = {"markerfacecolor": "white"}
+SERIES = {
+    "lewis_rogers1988/normal_force": (
+        "normal, Lewis & Rogers",
+        WHITE | {"color": house_style.BLACK, "marker": "o"},
+    )
+}
+ENLARGED_SERIES = {
+    "lewis_rogers1988/friction_force": (
+        "tangential, Lewis & Rogers",
+        WHITE | {"color": house_style.BLUE, "marker": "s"},
+    )
+}
 # Stated angles of the largest tangential force: who stated it, and the pattern of its line.
 STATED = {
     "stronge1994/peak_angle_mu_0.18": ("stated in the paper, near", "-"),
@@ -21,41 +35,39 @@ STATED = {
 }
 
 
-def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw the normal force on the left axis, the tangential one on the right; measurements too."""
     figure = house_style.new(5.0)
     axes = figure.subplots()
     enlarged = axes.twinx()
     largest = rf"largest ${house_style.F1MAX}$"
-    top = curves["friction"][Y] == curves["friction"][Y].max()
-    angle = curves["friction"][X][top][0]
-    normal, friction, solved = (
-        house_style.line(part, curves, name, X, Y, rows, label=label, **style)
-        for part, name, rows, label, style in (
-            (axes, "normal", None, rf"normal, ${house_style.F2MAX}$", house_style.LUMPED),
-            (enlarged, "friction", None, rf"tangential, ${house_style.F1MAX}$", TANGENTIAL),
+    force, friction = (tables.select(curves, variant=name) for name in ("normal", "friction"))
+    top = friction[Y] == friction[Y].max()
+    angle = friction[X][top].iloc[0]
+    normal, tangential, solved = (
+        house_style.line(part, curve, X, Y, rows, label=label, **style)
+        for part, curve, rows, label, style in (
+            (axes, force, None, rf"normal, ${house_style.F2MAX}$", house_style.LUMPED),
+            (enlarged, friction, None, rf"tangential, ${house_style.F1MAX}$", TANGENTIAL),
             (
                 enlarged,
-                "friction",
+                friction,
                 top,
                 rf"{largest}, solved ${angle:.1f}\degree$",
                 {"color": house_style.VERMILLION, "marker": "o", "linestyle": "none"},
             ),
         )
     )
-    paper = [normal, friction]
-    for part, name, force, colour, marker in (
-        (axes, "normal", "normal", house_style.BLACK, "o"),
-        (enlarged, "friction", "tangential", house_style.BLUE, "s"),
-    ):
-        style = {"color": colour, "marker": marker, "markerfacecolor": "white"}
-        wanted = {f"lewis_rogers1988/{name}_force": (f"{force}, Lewis & Rogers", style)}
-        paper += house_style.references(part, points, wanted)
+    paper = [normal, tangential]
+    on_right = {name: series for name, series in points.items() if name in ENLARGED_SERIES}
+    on_left = {name: series for name, series in points.items() if name not in ENLARGED_SERIES}
+    paper += house_style.references(axes, on_left, X, Y, SERIES).values()
+    paper += house_style.references(enlarged, on_right, X, Y, ENLARGED_SERIES).values()
     for name, (label, dashes) in STATED.items():
         if name in points:
-            where = rf"{largest}, {label} ${points[name]['value']:g}\degree$"
+            where = rf"{largest}, {label} ${points[name].value:g}\degree$"
             style = house_style.PRINTED | {"linestyle": dashes, "label": where}
-            paper.append(enlarged.axvline(points[name]["value"], **style))
+            paper.append(enlarged.axvline(points[name].value, **style))
     axes.set_ylabel("largest normal force, N")
     enlarged.set_xlabel("")
     enlarged.set_ylabel("largest tangential force, N", color=house_style.BLUE)

@@ -6,14 +6,16 @@ from typing import Any
 import numpy as np
 
 from planarimpact import lumped, rigid
-from planarimpact.ground.arrays import Array
-from stronge1994.csv_tables import Curves
-from stronge1994.curve_names import name
-from stronge1994.figures.shared.curves import as_printed as printed_curves
-from stronge1994.figures.shared.curves.beside import rebounds_of_continua
+from planarimpact.common.arrays import Array
+from stronge1994 import tables
+from stronge1994.figures.shared.curves.curves_below_one import rebounds_of_continua
+from stronge1994.figures.shared.curves.printed_variants import printed_variants
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.printed import impact
 from stronge1994.printed.slip import slip_throughout_limit as printed_limit
+from stronge1994.tables import Table
+
+ANGLE, LOST = "angle [deg]", "friction_dissipation [m2 S^2/2]"
 
 
 def curves(
@@ -26,19 +28,19 @@ def curves(
     continua: Mapping[str, Any] | None = None,
     nodes: Nodes = NO_NODES,
     as_printed: bool = False,
-) -> Curves:
+) -> Table:
     """Dissipation by friction over m2 S^2/2, from two independent calculations.
 
-    `mu = ..., e = ...` has the dissipation from the balance of energy, and the work of friction
-    integrated over the phases of slip. The continua, `continuum.viscous, mu = ..., e = ...`, have
-    the work of friction.
+    For each mu and e the model `lumped` has the dissipation from the balance of energy, and the
+    work of friction integrated over the phases of slip. `rigid` and the continua have the
+    dissipation; that of a continuum is the work of its friction.
 
-    >>> named = curves(3.5, 1.21, (0, 90), [0.5], [1.0], 10)
-    >>> sorted(named)
-    ['mu = 0.5, e = 1', 'no tangential compliance, mu = 0.5, e = 1']
+    >>> table = curves(3.5, 1.21, (0, 90), [0.5], [1.0], 10)
+    >>> table["curve"].unique().tolist()
+    ['lumped, mu = 0.5, e = 1', 'rigid, mu = 0.5, e = 1']
     """
     extra = nodes.get("angle", ())
-    named = {}
+    parts = []
     for mu in friction:
         for e in restitution:
             limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, e)
@@ -49,28 +51,19 @@ def curves(
             lost = lumped.rebound(x, mass_ratio, stiffness_ratio, e).dissipation
             work = [lumped.friction_work(value, mass_ratio, stiffness_ratio, e) for value in x]
             rough = rigid.rebound(x, mass_ratio, restitution=e).dissipation
-            pair = f"{name('mu', mu)}, {name('e', e)}"
-            named[pair] = {
-                "angle [deg]": theta,
-                "friction_dissipation [m2 S^2/2]": share * lost,
-                "friction_work [m2 S^2/2]": share * np.array(work),
-            }
-            named[f"no tangential compliance, {pair}"] = {
-                "angle [deg]": theta,
-                "friction_dissipation [m2 S^2/2]": share * rough,
-            }
+            columns = {ANGLE: theta, LOST: share * lost}
+            both = columns | {"friction_work [m2 S^2/2]": share * np.array(work)}
+            parts.append(tables.curve(both, "lumped", mu=mu, e=e))
+            parts.append(tables.curve({ANGLE: theta, LOST: share * rough}, "rigid", mu=mu, e=e))
             if as_printed:
                 _, _, printed = impact.rebound(x, mass_ratio, stiffness_ratio, e)
-                named |= printed_curves.beside(pair, named[pair], share * printed)
+                parts += printed_variants(columns, share * printed, mu=mu, e=e)
         theta = vertices(angle, samples, extra)
         x, share = _incidence_and_share(theta, mu)
-        for title, of_continuum in rebounds_of_continua(continua, x, mass_ratio, stiffness_ratio):
-            model, e_name = title.split(", ")
-            named[f"{model}, {name('mu', mu)}, {e_name}"] = {
-                "angle [deg]": theta,
-                "friction_dissipation [m2 S^2/2]": share * of_continuum.dissipation,
-            }
-    return named
+        for model, e, found in rebounds_of_continua(continua, x, mass_ratio, stiffness_ratio):
+            columns = {ANGLE: theta, LOST: share * found.dissipation}
+            parts.append(tables.curve(columns, model, mu=mu, e=e))
+    return tables.join(parts)
 
 
 def _incidence_and_share(theta: Array, mu: float) -> tuple[Array, Array]:

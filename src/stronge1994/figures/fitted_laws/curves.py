@@ -1,37 +1,34 @@
-"""Laws of discrete-element codes before and after a fit, beside the continuum."""
+"""Laws of discrete-element codes before and after a fit, and the continuum."""
 
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from planarimpact import fit
-from stronge1994.csv_tables import Curves
-from stronge1994.figures.shared.curves import beside
+from stronge1994 import tables
+from stronge1994.figures.shared.curves import curves_below_one
+from stronge1994.tables import Table
 
 MASS_RATIO = 3.5
 LAWS = ("lammps-hertz-mindlin", "lammps-hooke")
 
 
-def curves(pairs: Mapping[str, Mapping[str, Any]], incidence_max: float) -> Curves:
-    """For each pair `<pair>, continuum`, and of both laws `<pair>, <law>, before` and `after`.
+def curves(pairs: Mapping[str, Mapping[str, Any]], incidence_max: float) -> Table:
+    """For each pair the continuum, and of both laws the variants `before` and `after` the fit.
 
     >>> steel = {"poisson_ratio": 0.3, "restitution": 0.8, "loss": "plastic"}
-    >>> list(curves({"steel": steel}, 6))[:2]
-    ['steel, continuum', 'steel, lammps-hertz-mindlin, before']
+    >>> curves({"steel": steel}, 6)["curve"].unique().tolist()[:2]
+    ['continuum, steel', 'lammps-hertz-mindlin, before, steel']
     """
-    named: Curves = {}
+    parts = []
     for pair, found in fitted(pairs, incidence_max).items():
-        x = next(iter(found.values())).incidence
-        drawn = {"continuum": next(iter(found.values())).continuum}
+        first = next(iter(found.values()))
+        drawn = {("continuum", ""): first.continuum}
         for law, one in found.items():
-            drawn |= {f"{law}, before": one.before, f"{law}, after": one.after}
-        for name, velocity in drawn.items():
-            named[f"{pair}, {name}"] = {
-                "incidence [mu v2(0)]": np.array(x),
-                "velocity [mu v2(0)]": velocity,
-            }
-    return named
+            drawn |= {(law, "before"): one.before, (law, "after"): one.after}
+        for (model, variant), velocity in drawn.items():
+            columns = {"incidence [mu v2(0)]": first.incidence, "velocity [mu v2(0)]": velocity}
+            parts.append(tables.curve(columns, model, variant, pair=pair))
+    return tables.join(parts)
 
 
 def fitted(
@@ -49,7 +46,7 @@ def fitted(
             law: fit.fit(
                 law,
                 MASS_RATIO,
-                beside.stiffness_ratio(about["poisson_ratio"]),
+                curves_below_one.stiffness_ratio(about["poisson_ratio"]),
                 about["restitution"],
                 loss=about["loss"],
                 incidence_max=incidence_max,

@@ -1,4 +1,4 @@
-"""Beyond the paper: restitution below 1, five models of loss beside measured pairs of materials.
+"""Beyond the paper: restitution below 1, five models of loss and measured pairs of materials.
 
 Experiments state one number for the tangential rebound, beta_0: minus the slope of the line that
 fits w(x) where the contact does not slide. It is computed here as it was measured.
@@ -13,13 +13,15 @@ from scipy.interpolate import CubicSpline
 
 from planarimpact import bodies
 from planarimpact.bodies import Material
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import MODELS, name
-from stronge1994.figures.shared.curves import beside
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Rebound
+from stronge1994 import tables
+from stronge1994.figures.inelastic.trials import WHOLE
+from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.figures.shared.curves.sampling import vertices
+from stronge1994.names import MODELS
+from stronge1994.tables import Table
 
 # Slopes from which the fit starts. Friction never accelerates the body, so |w| is at most x.
 TRIAL_SLOPES = np.linspace(-1.0, 1.0, 201)
@@ -42,7 +44,6 @@ class Spread(NamedTuple):
     by_angle: bool = False
 
 
-WHOLE = "to (1 + e) m2/m1"
 RANGES = {
     WHOLE: Spread(),
     "to 45 deg": Spread(angle=45.0),
@@ -69,25 +70,25 @@ def curves(
     solved: int,
     tolerance: float,
     uncertainty: Mapping[str, float],
-) -> Curves:
+) -> Table:
     """What each model says of the measured pairs, of every restitution, and of every incidence.
 
     `points` has the columns of data/cornell1999/pairs.csv; `materials` has the parameters of its
     source.yaml, moduli in Pa, and `uncertainty` one sigma of each. For each of `MODELS` there are
-    `<model>, pairs`; `<model>, pairs, <spread>` for all other `SPREADS`; `<model>, nu = ...` for
-    both edges of the band; and `<model>, e = ...`. Each of the pairs has two more, `...; each
-    pair's parameters +- 1 sigma`: beta_0 with the standard deviation that it has from restitution,
-    friction and moduli, which are each pair's own. A smooth curve joins `solved` incidences of each
-    contact.
+    the variant `pairs` for each of the `SPREADS`, in the column `spread`; a curve with `nu` for
+    both edges of the band; and one with `e` at all incidences. Beside beta_0 of the pairs stands
+    the standard deviation that it has from restitution, friction and moduli, which are each pair's
+    own. A smooth curve joins `solved` incidences of each contact.
 
     >>> pairs = {"pair": ["glass"], "body": ["glass"], "other": ["glass"], "restitution": [0.97],
     ...          "restitution_uncertainty": [0.01], "friction": [0.1],
     ...          "friction_uncertainty": [0.01]}
     >>> glass = {"glass_young_modulus": 7e10, "glass_poisson_ratio": 0.2}
     >>> sigmas = {"glass_young_modulus": 1e9, "glass_poisson_ratio": 0.01}
-    >>> named = curves(3.5, pairs, glass, [0.8, 1.0], [0.2, 0.5], {"restitution": 0.6,
+    >>> table = curves(3.5, pairs, glass, [0.8, 1.0], [0.2, 0.5], {"restitution": 0.6,
     ...                "poisson_ratio": 0.3}, (0, 8), 11, 24, 1e-3, sigmas)
-    >>> round(float(named["lumped.hysteretic, pairs"]["tangential_restitution [1]"][0]), 2)
+    >>> own = tables.select(table, model="lumped.hysteretic", variant="pairs", spread=WHOLE)
+    >>> float(own["tangential_restitution [1]"].round(2)[0])
     0.37
     """
     zeta2, zeta2_sigma = _stiffness_ratios(points, materials, uncertainty)
@@ -95,25 +96,25 @@ def curves(
     stated = np.array([*(points[key] for key in parameters), zeta2], float)
     sigmas = np.array([*(points[f"{key}_uncertainty"] for key in parameters), zeta2_sigma], float)
     # Each parameter is lowered by its sigma, because e cannot exceed 1.
-    e, friction, ratios = beside.each_lowered(stated, sigmas)
-    own: Columns = {key: np.array(points[key]) for key in ("pair", "body", "other")} | {E: e[0]}
+    e, friction, ratios = curves_below_one.each_lowered(stated, sigmas)
+    own = {key: points[key] for key in ("pair", "body", "other")} | {E: e[0]}
     band, x = np.array(restitution, float), vertices(incidence, samples)
-    of_contact = beside.stiffness_ratio(contact["poisson_ratio"]), contact["restitution"]
-    named: Curves = {}
+    of_contact = curves_below_one.stiffness_ratio(contact["poisson_ratio"]), contact["restitution"]
+    parts = []
     for model in MODELS:
-        solve = partial(beside.rebound, model, tolerance)
+        solve = partial(curves_below_one.rebound, model, tolerance)
         fitted = partial(_fitted, solve, solved, mass_ratio)
         for spread, cases in fitted(ratios, e, friction, list(SPREADS)).items():
-            title = f"{model}, pairs" + (f", {spread}" if spread != WHOLE else "")
-            named |= beside.with_sigma(title, "pair", own, BETA_0, cases)
+            columns = own | curves_below_one.with_sigma(BETA_0, cases)
+            parts.append(tables.curve(columns, model, "pairs", spread=spread))
         for nu in poisson_ratio:
-            one = np.full_like(band, beside.stiffness_ratio(nu))
+            one = np.full_like(band, curves_below_one.stiffness_ratio(nu))
             # Friction has no influence on the whole range.
             beta_0 = fitted(one, band, one, [WHOLE])[WHOLE]
-            named[f"{model}, {name('nu', nu)}"] = {E: band, BETA_0: beta_0}
+            parts.append(tables.curve({E: band, BETA_0: beta_0}, model, nu=nu))
         w = solve(x, mass_ratio, *of_contact).velocity
-        named[f"{model}, {name('e', contact['restitution'])}"] = {X: x, W: w}
-    return named
+        parts.append(tables.curve({X: x, W: w}, model, e=contact["restitution"]))
+    return tables.join(parts)
 
 
 def _stiffness_ratios(

@@ -1,4 +1,6 @@
-"""Beyond the paper: five models of loss below e = 1, beside eleven measured pairs of materials."""
+"""Beyond the paper: five models of loss below e = 1, and eleven measured pairs of materials."""
+
+from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -6,13 +8,14 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from scipy.special import chdtri
 
-from planarimpact.ground.arrays import Array
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from planarimpact.common.arrays import Array
+from stronge1994 import tables
 from stronge1994.figures.inelastic.trials import BETA_0, SIGNIFICANCE, E, goodness, trials
-from stronge1994.figures.shared.drawing import beside, house_style
-from stronge1994.figures.shared.drawing.beside import MODELS, POINT, STYLES
-from stronge1994.figures.shared.drawing.house_style import Entries, Points, Series, Settings
+from stronge1994.figures.shared.drawing import house_style, model_lines
+from stronge1994.figures.shared.drawing.house_style import Entries, Points, Scatter, Settings
+from stronge1994.figures.shared.drawing.model_lines import POINT, STYLES
+from stronge1994.names import MODELS
+from stronge1994.tables import Table
 
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 # Distance of points of one restitution, which are drawn side by side.
@@ -32,7 +35,7 @@ def side_by_side(x: Array) -> Array:
     return np.asarray(x + PAIR_SPACING * (place - (count - 1) / 2))
 
 
-def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw (a) beta_0 against e, (b) one contact at all incidences, (c) chi-squared by trial."""
     series = points[settings["points"]]
     figure = house_style.new(9.9)
@@ -40,39 +43,39 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     # Each panel is as wide as its own labels allow.
     parts = [grid[row].subgridspec(1, 1) for row in range(3)]
     bands, contact, judged = (figure.add_subplot(part[0]) for part in parts)
-    low, high = settings["poisson_ratio"]
-    for nu in (low, high):
-        beside.lines(bands, curves, name("nu", nu), E, BETA_0)
+    edges = dict(tables.each(curves, "nu"))
+    for edge in edges.values():
+        model_lines.draw(bands, edge, E, BETA_0)
     for model in MODELS:
-        edges = [curves[f"{model}, {name('nu', nu)}"][BETA_0] for nu in (low, high)]
+        below, above = (tables.select(edge, model=model) for edge in edges.values())
         shade = {"color": STYLES[model]["color"], "alpha": 0.13, "linewidth": 0}
-        bands.fill_between(curves[f"{model}, {name('nu', low)}"][E], *edges, **shade)
+        bands.fill_between(below[E], below[BETA_0], above[BETA_0], **shade)
+    low, high = edges
     pairs = _draw_pairs(bands, series)
     bands.set_title(rf"(a) $\beta_0$, bands: $\nu = {low:g}$ to ${high:g}$; circles: measured")
     e = settings["contact"]["restitution"]
     contact.axhline(0, **house_style.GUIDE)
-    beside.lines(contact, curves, name("e", e), X, W)
+    model_lines.draw(contact, tables.select(curves, e=e), X, W)
     contact.set(xlim=settings["incidence"], title=rf"(b) $e = {e:g}$")
-    _draw_trials(judged, curves, series["columns"])
+    _draw_trials(judged, curves, series.columns)
     entries = [*(house_style.key(**STYLES[model]) for model in MODELS), *pairs]
     house_style.legend_below(figure, entries[: len(entries) // 2], entries[len(entries) // 2 :])
     return figure
 
 
-def _draw_pairs(axes: Axes, series: Series) -> Entries:
+def _draw_pairs(axes: Axes, series: Scatter) -> Entries:
     """Draw the measured pairs with their numbers, and return the entries of the legend."""
-    x, y = side_by_side(series["x"]), series["y"]
+    moved = replace(series, x=side_by_side(series.x))
     entries = []
-    for row, pair in enumerate(series["columns"]["pair"]):
-        sigma = [errors[[row]] for errors in series["sigma"]]
-        one = series | {"x": x[[row]], "y": y[[row]], "sigma": sigma}
+    for row, pair in enumerate(series.columns["pair"]):
+        one = moved.at([row])
         entries.append(house_style.measured(axes, one, label=f"{row + 1}  {pair}", **POINT))
         place = {"textcoords": "offset points", "fontsize": house_style.NOTE}
-        axes.annotate(f"{row + 1}", (x[row], y[row]), (3, 2), **place)
+        axes.annotate(f"{row + 1}", (moved.x[row], moved.y[row]), (3, 2), **place)
     return entries
 
 
-def _draw_trials(axes: Axes, curves: Curves, measured: Columns) -> None:
+def _draw_trials(axes: Axes, curves: Table, measured: Table) -> None:
     """Chi-squared of each model, a row for each trial, over the largest that agrees."""
     names = trials(curves)
     for place, model in enumerate(MODELS):

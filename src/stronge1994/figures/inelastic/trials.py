@@ -10,28 +10,28 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stronge1994 import curve_names
-from stronge1994.csv_tables import Columns, Curves
+from stronge1994 import tables
 from stronge1994.goodness import ChiSquared, chi_squared
+from stronge1994.tables import Table
 
 E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 SIGMA = "tangential_restitution_uncertainty [1]"
-PARAMETERS = f"{curve_names.EACH}pair's parameters"
+# The spread of the impacts that the verdicts judge, as the curves have it.
+WHOLE = "to (1 + e) m2/m1"
 # The pairs that decide most: the least elastic one, and the one farthest from all models.
 SOFT, HARD = "polyurethane", "chrome steel"
 # Pairs agree with a model if chance gives their chi-squared with at least this probability.
 SIGNIFICANCE = 0.01
-PAPER = "lumped.hysteretic"
 
 
 class Trial(NamedTuple):
     """One way to judge the pairs.
 
-    `spread` is that of the impacts to which beta_0 is fitted, as the names of the curves spell it.
-    The pairs in `without` are left out. All uncertainties are taken as a `share` of those stated.
+    `spread` is that of the impacts to which beta_0 is fitted. The pairs in `without` are left out.
+    All uncertainties are taken as a `share` of those stated.
     """
 
-    spread: str = ""
+    spread: str = WHOLE
     without: Sequence[str] = ()
     share: float = 1.0
 
@@ -39,30 +39,27 @@ class Trial(NamedTuple):
 AS_JUDGED = Trial()
 
 
-def trials(curves: Curves) -> dict[str, Trial]:
+def trials(curves: Table) -> dict[str, Trial]:
     """The pairs as the verdicts judge them, and with one choice at a time made otherwise."""
-    start = f"{PAPER}, pairs, "
-    spreads = [name.removeprefix(start) for name in curves if name.startswith(start)]
-    pairs = curves[f"{PAPER}, pairs"]
+    spreads = [spread for spread, _ in tables.each(curves, "spread", variant="pairs")]
+    pairs = tables.select(curves, variant="pairs")
+    unlike = pairs["pair"][pairs["body"] != pairs["other"]]
     return {
         "as judged": AS_JUDGED,
-        **{f"fit {name}": Trial(name) for name in spreads if not curve_names.is_shifted(name)},
+        **{f"fit {spread}": Trial(spread) for spread in spreads if spread != WHOLE},
         "the stated sigmas are two sigmas": Trial(share=0.5),
         f"without {SOFT}": Trial(without=[SOFT]),
         f"without {HARD}": Trial(without=[HARD]),
         "without both": Trial(without=[SOFT, HARD]),
-        "pairs of one material alone": Trial(
-            without=list(pairs["pair"][pairs["body"] != pairs["other"]])
-        ),
+        "pairs of one material alone": Trial(without=unlike.unique().tolist()),
     }
 
 
-def goodness(curves: Curves, model: str, measured: Columns, trial: Trial = AS_JUDGED) -> ChiSquared:
+def goodness(curves: Table, model: str, measured: Table, trial: Trial = AS_JUDGED) -> ChiSquared:
     """Chi-squared of a model over the measured pairs, whose order is that of the curves."""
-    name = f"{model}, pairs" + (f", {trial.spread}" if trial.spread else "")
-    sigma = measured[SIGMA] * trial.share
-    up, down = (curves[curve_names.shifted(name, PARAMETERS, sign)][BETA_0] for sign in (1, -1))
-    distance = (measured[BETA_0] - curves[name][BETA_0]) / sigma
-    moved = trial.share * (up - down) / 2 / sigma
-    kept = ~np.isin(measured["pair"], list(trial.without))
-    return chi_squared(distance[kept], np.diag(moved[kept]))
+    own = tables.select(curves, model=model, variant="pairs", spread=trial.spread)
+    kept = ~measured["pair"].isin(trial.without)
+    sigma = measured[SIGMA][kept] * trial.share
+    distance = (measured[BETA_0] - own[BETA_0])[kept] / sigma
+    moved = trial.share * own[tables.sigma_name(BETA_0)][kept] / sigma
+    return chi_squared(distance, np.diag(moved))

@@ -2,9 +2,10 @@
 
 from matplotlib.figure import Figure
 
-from stronge1994.csv_tables import Curves
+from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Dashes, Points, Settings, Style
+from stronge1994.tables import Table
 
 TIME, CONTACT, STICK = "time [t_c]", "contact_radius [a_max]", "stick_radius [a_max]"
 # In all panels a pattern of line stands for a model, and a colour for an incidence.
@@ -16,28 +17,29 @@ FORCES: dict[str, Style] = {
 }
 
 
-def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw (a) radii of contact and stick; below, a panel of forces for each incidence."""
-    forces = settings["forces"]
+    contacts = dict(tables.each(curves, "x", model="continuum", x=settings["incidences"]))
+    forces = dict(tables.each(curves, "x", model="lumped"))
     figure = house_style.new(3.2 + 1.7 * len(forces))
     panels = figure.subplots(1 + len(forces), 1, sharex=True, height_ratios=[3] + [2] * len(forces))
-    colours = dict(zip(settings["incidences"], house_style.COLOURS, strict=False))
-    first = f"continuum, x = {settings['incidences'][0]:g}"
-    rim = house_style.line(panels[0], curves, first, TIME, CONTACT, label="contact", **RIM)
+    colours = dict(zip(contacts, house_style.COLOURS, strict=False))
+    # The radius of contact is the same at every incidence.
+    own = next(iter(contacts.values()))
+    rim = house_style.line(panels[0], own, TIME, CONTACT, label="contact", **RIM)
     stick = []
     for x, colour in colours.items():
         style = {"color": colour, "linestyle": PATTERNS["continuum"]}
         style["label"] = f"stick, {house_style.INCIDENCE} $= {x:g}$"
-        stick.append(
-            house_style.line(panels[0], curves, f"continuum, x = {x:g}", TIME, STICK, **style)
-        )
+        stick.append(house_style.line(panels[0], contacts[x], TIME, STICK, **style))
     panels[0].set(ylim=(0, 1.05), ylabel=r"radius over $a_\mathrm{max}$")
     for axes, x in zip(panels[1:], forces, strict=True):
         axes.axhline(0, **house_style.GUIDE)
         for model, dashes in PATTERNS.items():
+            curve = tables.select(curves, model=model, x=x)
             for column, style in FORCES.items():
                 own = {"color": colours.get(x, house_style.BLACK), "linestyle": dashes} | style
-                house_style.line(axes, curves, f"{model}, x = {x:g}", TIME, column, **own)
+                house_style.line(axes, curve, TIME, column, **own)
         axes.set(ylim=(-1.1, 1.1), yticks=[-1, 0, 1], ylabel="force")
         axes.set_title(rf"{house_style.INCIDENCE} $= {x:g}$", pad=3)
     for axes in panels:

@@ -1,19 +1,20 @@
 """Beyond the paper: a slender rod strikes with its tip, tilted, so that its motions are coupled."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from planarimpact import noncollinear
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Regime
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Regime
 from planarimpact.noncollinear import InverseMass, NoncollinearHistory, NoncollinearRebound, rigid
 from planarimpact.noncollinear.rigid import ImpulsiveRebound, Law
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from stronge1994 import tables
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
+from stronge1994.tables import Table
 
-RIGID = {"rigid": Law.ENERGETIC, "rigid, Newton": Law.KINEMATIC}
+RIGID = {"": Law.ENERGETIC, "Newton": Law.KINEMATIC}  # by variant
 
 
 def curves(
@@ -25,55 +26,49 @@ def curves(
     samples: int,
     contact: dict[str, float],
     nodes: Nodes = NO_NODES,
-) -> Curves:
+) -> Table:
     """Rebound against the tilt, compliant and rigid, and one contact that jams.
 
     The velocity ratio v1(0)/v2(0) is not divided by mu. The restitution is energetic, but in the
-    curves `rigid, Newton, ...`, where it is the ratio of the normal velocities. Velocities are
-    those of the tip, after the impact; negative normal ones leave. The kinetic energy before it is
-    K0, see `noncollinear.kinetic_energy`. `contact` and `contact, mu = 0` are followed over time,
-    with a column `event` as in Fig. 3.
+    variant `Newton` of the rigid model, where it is the ratio of the normal velocities. Velocities
+    are those of the tip, after the impact; negative normal ones leave. The kinetic energy before it
+    is K0, see `noncollinear.kinetic_energy`. The variant `contact` is followed over time, with mu
+    and with mu = 0, and has a column `event` as in Fig. 3.
 
     >>> one = {"tilt": 25.0, "velocity_ratio": 10.0}
-    >>> named = curves(1.21, (-80, 80), [0.6], 1.6, 0.9, 11, one)
-    >>> list(named)[:3]
-    ['v1/v2 = 0.6', 'rigid, v1/v2 = 0.6', 'rigid, Newton, v1/v2 = 0.6']
-    >>> float(named["rigid, Newton, v1/v2 = 0.6"]["kinetic_energy [K0]"].max().round(2))
+    >>> table = curves(1.21, (-80, 80), [0.6], 1.6, 0.9, 11, one)
+    >>> newton = tables.select(table, model="rigid", variant="Newton", velocity_ratio=0.6)
+    >>> float(newton["kinetic_energy [K0]"].max().round(2))
     1.26
     """
     angle = vertices(tilt, samples, jam_limits(friction), nodes.get("tilt", ()))
     rod = slender_rod(angle)
-    named = {}
+    parts = []
     for ratio in velocity_ratio:
         before = noncollinear.kinetic_energy(ratio, 1.0, rod)
         rebound = noncollinear.rebound(
             ratio, 1.0, rod, friction, restitution, stiffness_ratio, loss="hysteretic"
         )
         columns = _columns(angle, rebound, rod, before)
-        named[name("v1/v2", ratio)] = columns | {
+        columns |= {
             "energy_lost [K0]": 1 - columns["kinetic_energy [K0]"],
             "friction_work [K0]": rebound.friction_work / before,
             "hysteresis [K0]": rebound.hysteresis / before,
             "energy_dissipated [K0]": (rebound.friction_work + rebound.hysteresis) / before,
             "regime": Regime.names(rebound.regime),
         }
-        for kind, law in RIGID.items():
+        parts.append(tables.curve(columns, "lumped", velocity_ratio=ratio))
+        for variant, law in RIGID.items():
             sudden = rigid.rebound(ratio, 1.0, rod, friction, restitution, law)
-            named[f"{kind}, {name('v1/v2', ratio)}"] = _columns(angle, sudden, rod, before)
-    for label, mu in (("contact", friction), ("contact, mu = 0", 0.0)):
-        named[label] = _followed(
-            noncollinear.history(
-                contact["velocity_ratio"],
-                1.0,
-                slender_rod(contact["tilt"]),
-                mu,
-                restitution,
-                stiffness_ratio,
-                samples=samples,
-                loss="hysteretic",
-            )
+            columns = _columns(angle, sudden, rod, before)
+            parts.append(tables.curve(columns, "rigid", variant, velocity_ratio=ratio))
+    state = contact["velocity_ratio"], 1.0, slender_rod(contact["tilt"])
+    for mu in (friction, 0.0):
+        followed = noncollinear.history(
+            *state, mu, restitution, stiffness_ratio, samples=samples, loss="hysteretic"
         )
-    return named
+        parts.append(tables.curve(_followed(followed), "lumped", "contact", mu=mu))
+    return tables.join(parts)
 
 
 def slender_rod(tilt: ArrayLike) -> InverseMass:
@@ -111,7 +106,7 @@ def jam_limits(friction: float) -> Array:
 
 def _columns(
     angle: Array, rebound: NoncollinearRebound | ImpulsiveRebound, rod: InverseMass, before: Array
-) -> Columns:
+) -> dict[str, Any]:
     after = noncollinear.kinetic_energy(rebound.tangential, rebound.normal, rod)
     return {
         "tilt [deg]": angle,
@@ -122,7 +117,7 @@ def _columns(
     }
 
 
-def _followed(contact: NoncollinearHistory) -> Columns:
+def _followed(contact: NoncollinearHistory) -> dict[str, Any]:
     """Columns of a history; the last event of an instant stands at its vertex."""
     event = np.full(contact.time.size, "", dtype="<U24")
     for mark in contact.events:

@@ -3,14 +3,16 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
+from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc
 
-from planarimpact.ground.results import Regime
-from stronge1994.csv_tables import Columns, Curves
+from planarimpact.common.results import Regime
+from stronge1994 import tables
 from stronge1994.figures.shared.drawing import histories, house_style
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Settings, Style
+from stronge1994.tables import Table
 
 TILT, TIME, ENERGY = "tilt [deg]", "time [1/Omega]", "kinetic_energy [K0]"
 ROWS = ("tangential_velocity [v2(0)]", "normal_velocity [v2(0)]", ENERGY)
@@ -20,20 +22,24 @@ NEWTON: Style = {"color": house_style.VERMILLION, "linestyle": house_style.DASHE
 NEWTON |= {"linewidth": 1.1, "label": "rigid, Newton"}
 CREATED: Style = {"facecolor": house_style.VERMILLION, "alpha": 0.25, "linewidth": 0}
 CREATED |= {"label": "creates energy"}
+# Friction is broad and below the normal force: where the contact slips, they coincide.
+OF_FRICTION: Style = {"color": house_style.SKY, "linewidth": 2.4, "label": r"$F_1/\mu$"}
+SMOOTH: Style = {"color": house_style.GREY, "linestyle": house_style.DASHES[1]}
+SMOOTH |= {"label": r"$F_2$, $\mu = 0$"}
 JAM: Style = {"facecolor": "white", "hatch": "//////", "edgecolor": "0.4", "linewidth": 0.6}
 JAM |= {"label": "jams"}
 SHADES = {"STICK_SLIP": "white", "SLIP_STICK_SLIP": "0.9", "SLIP_THROUGHOUT": "0.75"}
 
 
-def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw (a, b) velocities and (c) energy over the tilt, a column for each ratio; (d) forces."""
     figure = house_style.new(8.6)
-    ratios = settings["velocity_ratio"]
+    impacts = list(tables.each(curves, "velocity_ratio", variant=["", "Newton"]))
     over_tilt, over_time = figure.add_gridspec(2, 1, height_ratios=[5.7, 2])
-    panels = over_tilt.subgridspec(1 + len(ROWS), len(ratios), height_ratios=[0.8, 2, 2, 2])
+    panels = over_tilt.subgridspec(1 + len(ROWS), len(impacts), height_ratios=[0.8, 2, 2, 2])
     panels = panels.subplots(sharex=True, sharey="row", squeeze=False)
-    for column, ratio in zip(panels.T, ratios, strict=True):
-        _draw_over_tilt(column, curves, f"v1/v2 = {ratio:g}")
+    for column, (ratio, own) in zip(panels.T, impacts, strict=True):
+        _draw_over_tilt(column, own)
         column[0].set_title(rf"$v_1(0)/v_2(0) = {ratio:g}$")
     house_style.letter(panels[1:, 0])
     for axes in panels[:, 1:].ravel():
@@ -41,7 +47,7 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     panels[0, 0].set_yticks([0.5, 1.5, 2.5], ["regime", "jams", "rigid: jams"])
     panels[-1, 0].set_ylim(bottom=0)
     values = rf"$\mu = {settings['friction']:g}$,  $e = {settings['restitution']:g}$"
-    figure.suptitle(f"slender rod,  {values}", fontsize=house_style.STYLE["axes.titlesize"])
+    figure.suptitle(f"slender rod,  {values}", fontsize=rcParams["axes.titlesize"])
     sketch, forces = over_time.subgridspec(1, 2, width_ratios=[1, 5]).subplots()
     _draw_rod(sketch, settings["contact"])
     lines = _draw_contact(forces, curves, settings["friction"])
@@ -56,23 +62,27 @@ def _shown(panels: Sequence[Axes]) -> Entries:
     return list({label: artist for pair in pairs for artist, label in pair}.values())
 
 
-def _draw_over_tilt(panels: Sequence[Axes], curves: Curves, name: str) -> None:
-    rigid, newton = f"rigid, {name}", f"rigid, Newton, {name}"
-    _draw_ribbons(panels[0], curves[name], curves[rigid])
+def _draw_over_tilt(panels: Sequence[Axes], curves: Table) -> None:
+    """Draw one column of panels from the curves of one ratio of velocities."""
+    compliant, rigid, newton = (
+        tables.select(curves, model=model, variant=variant)
+        for model, variant in (("lumped", ""), ("rigid", ""), ("rigid", "Newton"))
+    )
+    _draw_ribbons(panels[0], compliant, rigid)
     for axes, column in zip(panels[1:], ROWS, strict=True):
         axes.axhline(1 if column == ENERGY else 0, **house_style.GUIDE)
         axes.axvline(0, **house_style.GUIDE)
-        house_style.line(axes, curves, name, TILT, column, **COMPLIANT)
-        house_style.rigid(axes, curves, rigid, TILT, column, name, label="rigid impulse")
-    tilt, energy = curves[newton][TILT], curves[newton][ENERGY]
-    differs = ~np.isclose(energy, curves[rigid][ENERGY])
-    house_style.line(panels[-1], curves, newton, TILT, ENERGY, differs, **NEWTON)
+        house_style.line(axes, compliant, TILT, column, **COMPLIANT)
+        house_style.rigid(axes, rigid, TILT, column, compliant, label="rigid impulse")
+    tilt, energy = newton[TILT], newton[ENERGY]
+    differs = ~np.isclose(energy, rigid[ENERGY])
+    house_style.line(panels[-1], newton, TILT, ENERGY, differs, **NEWTON)
     panels[-1].fill_between(tilt, 1, energy, where=energy > 1, interpolate=True, **CREATED)
     panels[-1].set_xticks([-60, 0, 60])
-    panels[-1].set_xlim(tilt[[0, -1]])
+    panels[-1].set_xlim(tilt.min(), tilt.max())
 
 
-def _draw_ribbons(axes: Axes, compliant: Columns, rigid: Columns) -> None:
+def _draw_ribbons(axes: Axes, compliant: Table, rigid: Table) -> None:
     """Draw three rows: regime; jams of the compliant contact; jams of the rigid one."""
     axes.set(ylim=(3, 0))
     axes.tick_params(which="both", length=0, labelbottom=False)
@@ -87,24 +97,14 @@ def _draw_ribbons(axes: Axes, compliant: Columns, rigid: Columns) -> None:
         axes.fill_between(curve[TILT], row + 0.1, row + 0.9, where=jams, **JAM)
 
 
-def _draw_contact(axes: Axes, curves: Curves, friction: float) -> Entries:
+def _draw_contact(axes: Axes, curves: Table, friction: float) -> Entries:
     """Draw (d) both forces against time, stick and slip above them; entries of the legend."""
-    contact = curves["contact"]
-    over_mu = contact["friction_force [m2 Omega v2(0)]"] / friction
-    curves = curves | {"contact": contact | {OVER_MU: over_mu}}
-    # Friction is broad and below the other: where the contact slips, they coincide.
+    contact, smooth = (tables.select(curves, variant="contact", mu=mu) for mu in (friction, 0.0))
+    contact[OVER_MU] = contact["friction_force [m2 Omega v2(0)]"] / friction
     lines = [
-        house_style.line(axes, curves, name, TIME, column, label=label, **style)
-        for name, column, label, style in (
-            ("contact", OVER_MU, r"$F_1/\mu$", {"color": house_style.SKY, "linewidth": 2.4}),
-            ("contact", NORMAL, "$F_2$", {"color": house_style.BLACK}),
-            (
-                "contact, mu = 0",
-                NORMAL,
-                r"$F_2$, $\mu = 0$",
-                {"color": house_style.GREY, "linestyle": house_style.DASHES[1]},
-            ),
-        )
+        house_style.line(axes, contact, TIME, OVER_MU, **OF_FRICTION),
+        house_style.line(axes, contact, TIME, NORMAL, color=house_style.BLACK, label="$F_2$"),
+        house_style.line(axes, smooth, TIME, NORMAL, **SMOOTH),
     ]
     axes.axhline(0, **house_style.GUIDE)
     axes.set(xlim=(0, None), ylabel=r"(d) force$/m_2\Omega v_2(0)$")
@@ -112,7 +112,7 @@ def _draw_contact(axes: Axes, curves: Curves, friction: float) -> Entries:
     return lines
 
 
-def _phases(contact: Columns) -> Iterator[tuple[float, float, str]]:
+def _phases(contact: Table) -> Iterator[tuple[float, float, str]]:
     """Phases of stick and slip. A slip jams if the body approaches faster at its end."""
     time, approach = contact[TIME], contact["normal_velocity [v2(0)]"]
     for start, end, state in histories.states(contact, TIME):

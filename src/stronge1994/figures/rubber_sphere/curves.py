@@ -1,4 +1,4 @@
-"""Beyond the paper: a rubber sphere that bounces off granite, six models beside 13 impacts.
+"""Beyond the paper: a rubber sphere that bounces off granite, six models and 13 impacts.
 
 The quantity that is judged is e_t = -w/x of each impact: the tangential velocity of the contact
 point after the impact over that before it, with the sign reversed.
@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import ELASTIC, MODELS, SIGNS, name, shifted
-from stronge1994.figures.shared.curves import beside
+from planarimpact.common.arrays import Array, ArrayLike
+from stronge1994 import tables
+from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.figures.shared.curves.sampling import vertices
+from stronge1994.names import ELASTIC, MODELS
+from stronge1994.tables import Table
 
 # Impacts that are stated singly in the text of a paper, with their own parameters in source.yaml.
 STATED = {"Cross 2010": "2010", "Cross 2002": "2002"}
@@ -34,16 +35,16 @@ def curves(
     sticking: float,
     tolerance: float,
     uncertainty: Mapping[str, float],
-) -> Curves:
+) -> Table:
     """What each model says of the impacts, of the stated ones, and of every incidence at one e.
 
     `points` has the columns of data/cross2014/impacts.csv, `ball` parameters of its source, and
-    `uncertainty` one sigma of each. For each of `MODELS` there are `<model>, impacts`, `<model>,
-    stated`, `<model>, e = ...` and `<model>, rms`: root mean square distances from e_t over the
-    impacts with an incidence up to a limit, `sticking` and the end of the range. The elastic
-    continuum has no stated impacts. Two more curves, `ALONE`, have what each half of the
-    measurement says of e_t. Beside the impacts come the curves named by `curve_names.shifted`:
-    friction moves all impacts together, while angle and restitution are each impact's own.
+    `uncertainty` one sigma of each. Each of `MODELS` has the variants `impacts`, `stated` and
+    `rms`, and a curve with e at all incidences. `rms` are root mean square distances from e_t over
+    the impacts with an incidence up to a limit, `sticking` and the end of the range. The elastic
+    continuum has no stated impacts. The model `measured` has what each half of the measurement says
+    of e_t, see `ALONE`. Angle and restitution are each impact's own, while friction moves all
+    impacts together: so it has curves of its own, up and down by a sigma.
 
     >>> ball = {"mass_ratio": 3.5, "stiffness_ratio": 1.5, "friction": 0.4}
     >>> for year in ("2010", "2002"):
@@ -53,48 +54,50 @@ def curves(
     ...           "tangential_before": [0.45], "tangential_before_uncertainty": [0.01],
     ...           "velocity_ratio": [0.51], "spin_change": [0.44]}
     >>> sigmas = {key: value / 100 for key, value in ball.items()}
-    >>> named = curves(ball, points, 0.9, (0.2, 8), 11, 2.5, 1e-3, sigmas)
-    >>> round(float(named["lumped.hysteretic, impacts"]["tangential_restitution [1]"][0]), 2)
+    >>> table = curves(ball, points, 0.9, (0.2, 8), 11, 2.5, 1e-3, sigmas)
+    >>> own = tables.select(table, model="lumped.hysteretic", variant="impacts")
+    >>> float(own["tangential_restitution [1]"].round(2)[0])
     0.43
     """
-    measured: Columns = {key: np.array(column) for key, column in points.items()}
+    measured = {key: np.array(column) for key, column in points.items()}
     before, e = measured["tangential_before"], measured["restitution"]
     before_sigma = measured["tangential_before_uncertainty"]
     friction, x = ball["friction"], vertices(incidence, samples)
     at = before / friction
     # The incidence is raised by its sigma, and a restitution lowered: some are almost 1.
     sigmas = [-before_sigma / friction, measured["restitution_uncertainty"]]
-    raised, lowered = beside.each_lowered([at, e], sigmas)
-    others = [friction + sign * uncertainty["friction"] for sign in SIGNS]
+    raised, lowered = curves_below_one.each_lowered([at, e], sigmas)
+    others = [friction + sign * uncertainty["friction"] for sign in (1, -1)]
     impacts = [*raised, *(before / other for other in others)], [*lowered, e, e]
-    angle, mu, stated_e = beside.each_lowered(_of_stated(ball), _of_stated(uncertainty))
+    angle, mu, stated_e = curves_below_one.each_lowered(_of_stated(ball), _of_stated(uncertainty))
     stated = np.tan(np.radians(angle)) / mu, stated_e
 
     alone = halves(measured, ball["mass_ratio"])
     e_t = measured["tangential_restitution"], *alone
     limits = np.array([sticking, incidence[1]])
-    labels: Columns = {"impact": measured["impact"], ANGLE: measured["angle"]}
-    balls: Columns = {"ball": np.array(list(STATED)), ANGLE: angle[0]}
-    named: Curves = {key: {X: at, E_T: half} for key, half in zip(ALONE, alone, strict=True)}
+    labels = {"impact": measured["impact"], ANGLE: measured["angle"]}
+    balls = {"ball": list(STATED), ANGLE: angle[0], X: stated[0][0]}
+    halves_of_e_t = zip(ALONE, alone, strict=True)
+    parts = [tables.curve({X: at, E_T: half}, "measured", key) for key, half in halves_of_e_t]
     for model in (*MODELS, ELASTIC):
         solve = partial(_shares, model, tolerance, ball)
-        title, e_of_line = f"{model}, impacts", restitution
-        if model == ELASTIC:
-            e_of_line = 1.0
-            named[title] = {E_T: solve(at, e_of_line)}
-        else:
-            *own, above, below = solve(*impacts)
-            named |= beside.with_sigma(title, "impact", labels, E_T, own)
-            for sign, off in zip(SIGNS, (above, below), strict=True):
-                named[shifted(title, "friction", sign)] = labels | {E_T: off}
-            named |= beside.with_sigma(f"{model}, stated", "ball", balls, E_T, solve(*stated))
-            named[f"{model}, stated"] |= {X: stated[0][0]}
-        named[title] |= {X: at}
-        named[f"{model}, {name('e', e_of_line)}"] = {X: x, E_T: solve(x, e_of_line)}
-        squares = np.square(named[title][E_T] - e_t)
+        own, e_of_line = {X: at, E_T: solve(at, 1.0)}, 1.0
+        if model != ELASTIC:
+            *cases, above, below = solve(*impacts)
+            own = labels | {X: at} | curves_below_one.with_sigma(E_T, cases)
+            e_of_line = restitution
+            for sign, off in ((1, above), (-1, below)):
+                shift = {"shifted": "friction", "sigmas": sign}
+                parts.append(tables.curve(labels | {E_T: off}, model, "impacts", **shift))
+            columns = balls | curves_below_one.with_sigma(E_T, solve(*stated))
+            parts.append(tables.curve(columns, model, "stated"))
+        parts.append(tables.curve(own, model, "impacts"))
+        parts.append(tables.curve({X: x, E_T: solve(x, e_of_line)}, model, e=e_of_line))
+        squares = np.square(own[E_T] - e_t)
         means = np.array([squares[:, at <= limit].mean(axis=1) for limit in limits])
-        named[f"{model}, rms"] = {LIMIT: limits} | dict(zip(RMS, np.sqrt(means).T, strict=True))
-    return named
+        columns = {LIMIT: limits} | dict(zip(RMS, np.sqrt(means).T, strict=True))
+        parts.append(tables.curve(columns, model, "rms"))
+    return tables.join(parts)
 
 
 def _of_stated(known: Mapping[str, float]) -> list[list[float]]:
@@ -108,10 +111,10 @@ def _shares(
 ) -> Array:
     """e_t of impacts with the incidences `x` and restitutions `e`."""
     groups = ball["mass_ratio"], ball["stiffness_ratio"], e
-    return -beside.rebound(model, tolerance, x, *groups).velocity / np.asarray(x)
+    return -curves_below_one.rebound(model, tolerance, x, *groups).velocity / np.asarray(x)
 
 
-def halves(measured: Columns, mass_ratio: float) -> tuple[Array, Array]:
+def halves(measured: Mapping[str, Any], mass_ratio: float) -> tuple[Array, Array]:
     """e_t that follows from the change of the centre's velocity alone, and of the spin alone.
 
     The impulse of friction changes the velocity of the contact point `mass_ratio` times as much as

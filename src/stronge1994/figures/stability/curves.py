@@ -7,8 +7,9 @@ from typing import TypeVar
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground.arrays import Array
-from stronge1994.csv_tables import Curves
+from planarimpact.common.arrays import Array
+from stronge1994 import tables
+from stronge1994.tables import Table
 
 GROUPS = {
     "incidence": "mu v2(0)",
@@ -27,22 +28,22 @@ DIGITS = 16.0
 _Result = TypeVar("_Result")
 
 
-def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
+def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Table:
     """Digits of every output at given impacts, and the balances of their contacts.
 
     `points` has answers of many digits and their conditions, see data/lumped_extremes/source.yaml.
     Allowed are the digits that the condition of an output leaves if every number is rounded once;
     `digits_lost` says how many fewer the worst output has. An impact that raises, warns or gives
-    NaN has no digits and loses 16. In `contacts`, `friction_excess` is how far friction exceeds the
-    Coulomb limit at the worst event; `energy_residual` is how far the work of friction along the
-    contact differs from the balance of energy, over the most work that friction could do plus the
-    condition.
+    NaN has no digits and loses 16. These are in the variant `impacts`. In `contacts`,
+    `friction_excess` is how far friction exceeds the Coulomb limit at the worst event;
+    `energy_residual` is how far the work of friction along the contact differs from the balance of
+    energy, over the most work that friction could do plus the condition.
 
     >>> table = {"incidence": [8.0], "mass_ratio": [3.5], "stiffness_ratio": [1.21]}
     >>> table |= {"restitution": [1.0], "velocity": [1.0], "peak_friction": [1.0]}
     >>> table |= {"dissipation": [9.0], "condition_velocity": [18.5], "phases": [1]}
     >>> table |= {"condition_peak_friction": [0.0], "condition_dissipation": [29.0]}
-    >>> curves(table, 10)["impacts"]["digits_lost [1]"].tolist()
+    >>> tables.select(curves(table, 10), variant="impacts")["digits_lost [1]"].tolist()
     [0.0]
     """
     table = {name: np.asarray(values, float) for name, values in points.items()}
@@ -66,7 +67,8 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Curves:
     excess, residual = np.array(balances).reshape(-1, 2).T
     followed = {name: values[few] for name, values in labelled.items()}
     followed |= {"friction_excess [mu F2max]": excess, "energy_residual [1]": residual}
-    return {"impacts": labelled | columns, "contacts": followed}
+    variants = {"impacts": labelled | columns, "contacts": followed}
+    return tables.join(tables.curve(own, "lumped", variant) for variant, own in variants.items())
 
 
 def _solved(groups: Array) -> Array:

@@ -2,9 +2,10 @@
 
 from matplotlib.figure import Figure
 
-from stronge1994.csv_tables import Curves
+from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Points, Settings, Style
+from stronge1994.tables import Table
 
 OUTPUTS = {
     "velocity": "velocity",
@@ -21,15 +22,16 @@ LINES = {"as many as allowed": (0, "-"), "2 digits fewer": (2, house_style.DASHE
 DIGITS = range(0, 17, 4)
 
 
-def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw digits found (a) to (c) against the ratio of frequencies, (d) to (f) against allowed."""
+    impacts = tables.select(curves, variant="impacts")
     figure = house_style.new(5.6)
     panels = figure.subplots(2, len(OUTPUTS), sharey=True)
     columns = zip(panels.T, "abc", "def", OUTPUTS.items(), strict=True)
     for (above, below), first, second, (name, title) in columns:
         found, allowed = f"digits_{name} [1]", f"digits_allowed_{name} [1]"
-        house_style.line(above, curves, "impacts", OMEGA, found, **MARK)
-        house_style.line(below, curves, "impacts", allowed, found, **MARK)
+        house_style.line(above, impacts, OMEGA, found, **MARK)
+        house_style.line(below, impacts, allowed, found, **MARK)
         for label, (fewer, dashes) in LINES.items():
             style = {"color": house_style.BLACK, "linewidth": 0.7, "linestyle": dashes, "zorder": 3}
             below.axline((0, -fewer), slope=1, label=label, **style)

@@ -8,15 +8,16 @@ import pandas as pd
 
 from planarimpact import scene
 from planarimpact.scene.columns import header
-from stronge1994.csv_tables import Curves
+from stronge1994 import tables
+from stronge1994.tables import Table
 
 TOLERANCE = 1e-4
 
 
-def curves(throw: Mapping[str, Any]) -> Curves:
+def curves(throw: Mapping[str, Any]) -> Table:
     """Path of a ball between a floor and the underside of a table, and each impact.
 
-    `path` has one row before the first impact, one at each, one after the last; velocity and spin
+    There is one row before the first impact, one at each, one after the last; velocity and spin
     are those after it. They have the names and signs of a scene in space, x along the floor and z
     up: spin_y is positive where the ball turns as if it rolled forward on the floor, and -`spin`
     before the first impact. Gravity is left out.
@@ -24,7 +25,7 @@ def curves(throw: Mapping[str, Any]) -> Curves:
     >>> ball = {"radius": 0.025, "density": 1100.0, "young_modulus": 5e6, "poisson_ratio": 0.5}
     >>> throw = {"friction": 0.8, "restitution": 0.9, "loss": "viscous"}
     >>> throw |= {"velocity": [6, -5], "spin": 0, "gap": 0.7, "bounces": 3}
-    >>> path = curves(ball | throw)["path"]
+    >>> path = curves(ball | throw)
     >>> path["velocity_x [m/s]"].round(1).tolist()  # before, after each impact, at the end
     [6.0, 3.6, -0.5, -2.0, -2.0]
     """
@@ -47,9 +48,9 @@ def curves(throw: Mapping[str, Any]) -> Curves:
         "velocity_x [m/s]": np.append(along, along[-1]),
         "velocity_z [m/s]": np.append(up, up[-1]),
         "spin_y [rad/s]": np.append(spin, spin[-1]),
-        "regime": np.array(["before", *after["regime"], "after"]),
+        "regime": ["before", *after["regime"], "after"],
     }
-    return {"path": path}
+    return tables.curve(path, f"continuum.{throw['loss']}")
 
 
 def impacts(throw: Mapping[str, Any]) -> tuple[pd.DataFrame, pd.DataFrame]:

@@ -9,16 +9,12 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from planarimpact import continuum, models
-from planarimpact.ground.arrays import Array
-from planarimpact.ground.results import Rebound
-from stronge1994.csv_tables import Curves
+from planarimpact.common.arrays import Array
+from planarimpact.common.results import Rebound
+from stronge1994 import tables
+from stronge1994.tables import Table
 
 FIELDS = {"velocity": "mu v2(0)", "peak_friction": "mu F2max", "dissipation": "mu^2 m2 v2(0)^2"}
-# Columns of the settings of models, and how a name has them.
-SETTINGS = {"steps": "steps [1]", "circles": "circles [1]", "tolerance": "tolerance [mu v2(0)]"}
-SETTINGS |= {"knots": "knots [1]"}
-IN_NAMES = {"steps": "{:d} steps", "circles": "{:d} circles", "tolerance": "tolerance {:g}"}
-IN_NAMES |= {"knots": "{:d} knots"}
 # The spline of the continuum: evenly spaced incidences, and the tolerance of the continuum there.
 SPLINE_KNOTS, SPLINE_TOLERANCE = 2000, 1e-5
 # Tolerance of the spread where the continuum is solved for it.
@@ -45,10 +41,12 @@ def curves(
     inelastic: Mapping[str, Any],
     batches: Sequence[int],
     budget: float,
-) -> Curves:
+) -> Table:
     """Errors and times of every model that admits a restitution, a curve of one point each.
 
-    For e = 1 the errors are those against the elastic continuum. For e < 1 every model is measured
+    The parameters of a curve are the settings of its model (the number of `steps`, `circles` or
+    `knots`, or the `tolerance` in mu v2(0)), the restitution, and the `loss` of the reference. For
+    e = 1 the errors are those against the elastic continuum. For e < 1 every model is measured
     twice, against the viscous and against the plastic continuum. So the error of the other
     continuum is what the wrong loss costs. `seen` is the share of incidences where the error of the
     model is larger than the spread of the reference under uncertain inputs, see `input_spread`;
@@ -57,15 +55,15 @@ def curves(
     e = 1 alone. Times are as in `times`.
 
     >>> inelastic = {"tolerance": 1e-2, "tolerances": [1e-2]}
-    >>> named = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
-    >>> list(named)[2:4]
+    >>> table = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
+    >>> table["curve"].tolist()[2:4]
     ['laws.brach, e = 0.8, viscous', 'lumped.hysteretic, e = 0.8, viscous']
-    >>> wrong = named["continuum.plastic, tolerance 0.01, e = 0.8, viscous"]
-    >>> round(float(wrong["max_velocity [mu v2(0)]"][0]), 1)
+    >>> wrong = tables.select(table, model="continuum.plastic", loss="viscous")
+    >>> float(wrong["max_velocity [mu v2(0)]"].round(1)[0])
     0.3
     """
     x = np.linspace(incidence[0], incidence[1], samples)
-    named = {}
+    parts = []
     for e in restitution:
         groups = {"mass_ratio": mass_ratio, "stiffness_ratio": stiffness_ratio, "restitution": e}
         accuracy, wanted = tolerance, tolerances
@@ -80,10 +78,6 @@ def curves(
             spread = input_spread(x, groups, loss)
             for contender, rebound, taken in zip(contenders, found, seconds, strict=True):
                 row = {
-                    "model": contender.model,
-                    "restitution [1]": e,
-                    "loss": loss,
-                    **{SETTINGS[key]: value for key, value in contender.settings.items()},
                     **errors(rebound, exact),
                     "seen [1]": float(np.mean(np.abs(rebound.velocity - exact.velocity) > spread)),
                     "reference_error [mu v2(0)]": accuracy,
@@ -92,10 +86,10 @@ def curves(
                     **contender.build_time,
                     **taken,
                 }
-                settings = [IN_NAMES[key].format(v) for key, v in contender.settings.items()]
-                name = ", ".join([contender.model, *settings, f"e = {e:g}", *filter(None, [loss])])
-                named[name] = {key: np.array([value]) for key, value in row.items()}
-    return named
+                columns = {key: [value] for key, value in row.items()}
+                settings: dict[str, Any] = {**contender.settings}
+                parts.append(tables.curve(columns, contender.model, **settings, e=e, loss=loss))
+    return tables.join(parts)
 
 
 _Solver: TypeAlias = Callable[[Array], Rebound]

@@ -1,19 +1,20 @@
 """Beyond the paper: error of every model against its time, and time against the size of batch."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from stronge1994.csv_tables import Columns, Curves
+from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import Points, Settings, Style
+from stronge1994.tables import Table
 
-ERROR, MODEL, E = "rms_velocity [mu v2(0)]", "model", "restitution [1]"
+ERROR, SPLINE = "rms_velocity [mu v2(0)]", "spline of continuum"
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
-TOLERANCE, SPLINE = "tolerance [mu v2(0)]", "spline of continuum"
 OTHERS, BATCH_OF_OTHERS = "other_codes/impacts", 100
 ERROR_LABEL, TIME_LABEL = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact, s"
 NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
@@ -65,27 +66,32 @@ MARKS = {
 GROWTH = ("laws.brach", "lumped", "timestep.mindlin", "continuum", "annuli", SPLINE)
 
 
-def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
+def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     """Draw error against time for the first restitution and the last, and time against batch.
 
     A restitution below 1 has a panel for each loss.
     """
     batches = sorted(settings["batches"])
     batch = batches[len(batches) // 2]
-    cases: dict[tuple[float, str], Curves] = {}
-    for e in dict.fromkeys((settings["restitution"][0], settings["restitution"][-1])):
-        for name, curve in curves.items():
-            if curve[E][0] == e:
-                cases.setdefault((e, _loss(curve)), {})[name] = curve
+    time = f"time_{batch} [s]"
+    ends = dict.fromkeys((settings["restitution"][0], settings["restitution"][-1]))
+    cases = {
+        (e, loss): same
+        for e in ends
+        for loss, same in curves[tables.where(curves, e=e)].groupby("loss", sort=False)
+    }
     figure = house_style.new(10.2)
     grid = figure.add_gridspec(3, 2, height_ratios=[4, 4, 2.6])
     cells = grid[0, :], grid[1, 0], grid[1, 1]
     for letter, cell, ((e, loss), same) in zip("abc", cells, cases.items(), strict=False):
         axes = figure.add_subplot(cell, xscale="log", yscale="log")
-        timed = {name: curve for name, curve in same.items() if f"time_{batch} [s]" in curve}
-        _draw_errors(axes, timed, f"time_{batch} [s]", numbers=letter == "a")
+        timed = same.reindex(columns=[*same, time]) if time not in same else same
+        timed = timed.dropna(subset=[time])
+        _draw_errors(axes, timed, time, numbers=letter == "a")
         if OTHERS in points and batch == BATCH_OF_OTHERS:
-            _draw_others(axes, timed, f"time_{batch} [s]", points[OTHERS]["columns"])
+            others = points[OTHERS].columns
+            others = others[tables.where(others, loss=loss, **{"restitution [1]": e})]
+            _draw_others(axes, timed, time, others)
         axes.margins(0.15, 0.08)
         axes.set(title=f"({letter}) $e = {e:g}$, {loss or 'elastic'} continuum", xlabel=TIME_LABEL)
         axes.set_ylabel(ERROR_LABEL, visible=letter != "c")
@@ -100,59 +106,53 @@ def draw(curves: Curves, settings: Settings, points: Points) -> Figure:
     return figure
 
 
-def _loss(curve: Columns) -> str:
-    return str(curve["loss"][0]) if "loss" in curve else ""
-
-
-def _draw_errors(axes: Axes, curves: Curves, time: str, numbers: bool) -> None:
+def _draw_errors(axes: Axes, rows: Table, time: str, numbers: bool) -> None:
     """Draw a point for each model, and which errors are hidden.
 
     With `numbers` the setting of a model stands beside its point, or the name of a formula.
     """
-    for name, curve in curves.items():
-        house_style.line(axes, curves, name, time, ERROR, **MARKS[curve[MODEL][0]])
-        if numbers and (text := _number(curve)):
+    for _, row in rows.iterrows():
+        axes.plot([row[time]], [row[ERROR]], **MARKS[row["model"]])
+        if numbers and (text := _number(row)):
             # Names stand on the left: formulas are fast, and of nearly one time.
             left: Style = {"xytext": (-5, 0), "ha": "right", "va": "center"}
             place: Style = left if text.isalpha() else {"xytext": (4, 3)}
             place |= {"textcoords": "offset points", "fontsize": house_style.NOTE}
-            axes.annotate(text, (curve[time][0], curve[ERROR][0]), **place)
-    for curve in list(curves.values())[:1]:
-        axes.axhspan(curve[SPREAD_STICK][0], curve[SPREAD][0], **HIDDEN)
+            axes.annotate(text, (row[time], row[ERROR]), **place)
+    if len(rows):
+        axes.axhspan(*rows[[SPREAD_STICK, SPREAD]].iloc[0], **HIDDEN)
 
 
-def _number(curve: Columns) -> str:
+def _number(row: Mapping[str, Any]) -> str:
     """The number of steps, circles or knots, or the tolerance; two laws of Mindlin need it once.
 
-    >>> _number({"model": ["continuum"], "tolerance [mu v2(0)]": [1e-3]})
+    >>> _number({"model": "continuum", "tolerance": 1e-3})
     '$10^{-3}$'
     """
-    model = curve[MODEL][0]
-    if TOLERANCE in curve:
-        return f"$10^{{{np.log10(curve[TOLERANCE][0]):.3g}}}$"
-    for key in ("circles [1]", "knots [1]", "steps [1]"):
-        if key in curve and model != "timestep.mindlin_rescaled":
-            return f"{curve[key][0]:g}"
-    return NAMES.get(model, "")
+    settings = {key: row.get(key, np.nan) for key in ("tolerance", "circles", "knots", "steps")}
+    known = {key: value for key, value in settings.items() if value > 0}
+    if "tolerance" in known:
+        return f"$10^{{{np.log10(known['tolerance']):.3g}}}$"
+    if known and row["model"] != "timestep.mindlin_rescaled":
+        return f"{next(iter(known.values())):g}"
+    return NAMES.get(row["model"], "")
 
 
-def _draw_others(axes: Axes, curves: Curves, time: str, others: Columns) -> None:
+def _draw_others(axes: Axes, rows: Table, time: str, others: Table) -> None:
     """Draw other codes, whose times are known over that of the table of spheres."""
-    for table in curves.values():
-        loss = _loss(table)
-        if table[MODEL][0] != (f"spheres.{loss}" if loss else "spheres"):
-            continue
-        same = (others[E] == table[E][0]) & (others["loss"] == loss)
-        times = others["times_table [1]"][same].astype(float) * table[time][0]
-        for code in ("LAMMPS", "pooltool"):
-            rows = np.char.startswith(others["curve"][same], code)
-            axes.plot(times[rows], others[ERROR][same][rows], **MARKS[code])
+    names = "spheres" + ("." + rows["loss"]).where(rows["loss"] != "", "")
+    table = rows[rows["model"] == names]
+    for code, own in others.groupby("code", sort=False) if len(table) else ():
+        times = own["times_table [1]"] * table[time].iloc[0]
+        axes.plot(times, own[ERROR], **MARKS[code])
 
 
-def _draw_growth(axes: Axes, curves: Curves, batches: Sequence[int]) -> None:
+def _draw_growth(axes: Axes, rows: Table, batches: Sequence[int]) -> None:
     """Draw time against the size of batch, with the finest setting of each model."""
     for model, dashes in zip(GROWTH, ("-", *house_style.DASHES), strict=True):
-        for curve in [c for c in curves.values() if c[MODEL][0] == model][-1:]:
-            solved = {b: curve[f"time_{b} [s]"][0] for b in batches if f"time_{b} [s]" in curve}
+        finest = rows[rows["model"] == model].tail(1)
+        columns = [f"time_{batch} [s]" for batch in batches]
+        for _, row in finest.reindex(columns=columns).iterrows():
             style = MARKS[model] | {"linestyle": dashes, "linewidth": 0.9}
-            axes.loglog(list(solved), list(solved.values()), **style)
+            solved = row.notna().to_numpy()
+            axes.loglog(np.array(batches)[solved], row[solved], **style)

@@ -1,4 +1,4 @@
-"""Beyond the paper: spheres that yield, six models beside finite elements of our own."""
+"""Beyond the paper: spheres that yield, six models and finite elements of our own."""
 
 from collections.abc import Mapping, Sequence
 from functools import partial
@@ -8,15 +8,15 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from planarimpact import continuum
+from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
-from planarimpact.ground.arrays import Array, ArrayLike
-from stronge1994 import curve_names
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import ELASTIC_IN_SHEAR, name
-from stronge1994.figures.shared.curves import beside
+from stronge1994 import names, tables
+from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.figures.shared.curves.sampling import vertices
+from stronge1994.names import ELASTIC, ELASTIC_IN_SHEAR
+from stronge1994.tables import Table
 
-MODELS = (*curve_names.MODELS, ELASTIC_IN_SHEAR)
+MODELS = (*names.MODELS, ELASTIC_IN_SHEAR)
 # Columns of data/finite_elements/spheres.csv that tell its rows apart.
 LABELS = ("set", "contact", "run")
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -35,39 +35,43 @@ def curves(
     incidence: Sequence[float],
     samples: int,
     tolerance: float,
-) -> Curves:
+) -> Table:
     """What each model says of every run, and of two contacts at all incidences.
 
-    `points` has the columns of data/finite_elements/spheres.csv. For each of `MODELS` there are
-    `<model>, runs` and `<model>, e = ...`. With them come the elastic continuum, `continuum, nu =
-    ...`, and the force on a contact that is pushed while it yields, `pushed, e = ...`.
+    `points` has the columns of data/finite_elements/spheres.csv. For each of `MODELS` there are the
+    variant `runs`, and a curve for each `e`. With them come the elastic continuum for each `nu`,
+    and the variant `pushed`: the force on a contact that is pushed while it yields.
 
     >>> run = {"set": ["a"], "contact": ["b"], "run": ["c"], "incidence": [2.0],
     ...        "restitution": [0.55], "poisson_ratio": [0.3]}
-    >>> named = curves(3.5, run, {"restitution": [0.55], "poisson_ratio": 0.3},
+    >>> table = curves(3.5, run, {"restitution": [0.55], "poisson_ratio": 0.3},
     ...                {"poisson_ratio": [0.3]}, [0.55], [0, 6], 3, 1e-2)
-    >>> round(float(named["continuum.plastic, runs"]["velocity [mu v2(0)]"][0]), 1)
+    >>> own = tables.select(table, model="continuum.plastic", variant="runs")
+    >>> float(own["velocity [mu v2(0)]"].round(1)[0])
     -0.3
     """
     x = vertices(incidence, samples)
     at, e = (np.array(points[key], float) for key in ("incidence", "restitution"))
-    ratios = np.array([beside.stiffness_ratio(nu) for nu in points["poisson_ratio"]])
-    labels: Columns = {key: np.array(points[key]) for key in LABELS}
-    of_contact = mass_ratio, beside.stiffness_ratio(contact["poisson_ratio"])
-    named: Curves = {}
+    ratios = np.array([curves_below_one.stiffness_ratio(nu) for nu in points["poisson_ratio"]])
+    labels = {key: points[key] for key in LABELS}
+    of_contact = mass_ratio, curves_below_one.stiffness_ratio(contact["poisson_ratio"])
+    parts = []
     for model in MODELS:
         solve = partial(_velocity, model, tolerance)
-        named[f"{model}, runs"] = labels | {X: at, W: solve(at, mass_ratio, ratios, e)}
+        runs = labels | {X: at, W: solve(at, mass_ratio, ratios, e)}
+        parts.append(tables.curve(runs, model, "runs"))
         for one in contact["restitution"]:
-            named[f"{model}, {name('e', one)}"] = {X: x, W: solve(x, *of_contact, one)}
+            parts.append(tables.curve({X: x, W: solve(x, *of_contact, one)}, model, e=one))
     for nu in elastic["poisson_ratio"]:
-        velocity = _velocity("continuum", tolerance, x, mass_ratio, beside.stiffness_ratio(nu))
-        named[f"continuum, {name('nu', nu)}"] = {X: x, W: velocity}
+        velocity = _velocity(
+            ELASTIC, tolerance, x, mass_ratio, curves_below_one.stiffness_ratio(nu)
+        )
+        parts.append(tables.curve({X: x, W: velocity}, ELASTIC, nu=nu))
     for one in pushed:
         approach, share = share_of_elastic(one)
         columns = {"approach [delta_max]": approach, "share_of_elastic_force [1]": share}
-        named[f"pushed, {name('e', one)}"] = columns
-    return named
+        parts.append(tables.curve(columns, "continuum.plastic", "pushed", e=one))
+    return tables.join(parts)
 
 
 def _velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
@@ -75,7 +79,7 @@ def _velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
         return continuum.rebound(
             *groups, tolerance=tolerance, loss="plastic-elastic-shear"
         ).velocity
-    return beside.rebound(model, tolerance, *groups).velocity
+    return curves_below_one.rebound(model, tolerance, *groups).velocity
 
 
 def share_of_elastic(restitution: float) -> tuple[Array, Array]:

@@ -6,6 +6,5 @@ figure.yaml beside it, and the shared physics of workflow/config.yaml that figur
 tables through which the curves must pass, by the axis on which they lie; and `uncertainty`, one
 sigma of each uncertain parameter. An incidence is x = v1(0)/(mu v2(0)).
 
-What it returns is `{name: {column: array}}`. The name of a column carries its unit in brackets; S
-is (v1(0)^2 + v2(0)^2)^(1/2).
+What it returns is a table of curves, see `stronge1994.tables`. S is (v1(0)^2 + v2(0)^2)^(1/2).
 """

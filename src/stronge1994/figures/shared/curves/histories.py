@@ -1,13 +1,14 @@
 """Figs 3 and 4: forces and tangential velocity against time."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground.results import History
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import name
+from planarimpact.common.results import History
+from stronge1994 import tables
+from stronge1994.tables import Table
 
 
 def curves(
@@ -16,23 +17,23 @@ def curves(
     incidence: float,
     restitution: Sequence[float],
     samples: int,
-) -> Curves:
-    """One contact against time for each coefficient of restitution, in a curve `e = ...`.
+) -> Table:
+    """One contact against time for each coefficient of restitution.
 
     The events come on top of the `samples`. The column `event` has the kind of an event at its
     vertex, else it is empty.
 
-    >>> contact = curves(3.5, 1.21, 1.0, [1.0], 50)["e = 1"]
-    >>> [str(event) for event in contact["event"] if event]
+    >>> contact = curves(3.5, 1.21, 1.0, [1.0], 50)
+    >>> [event for event in contact["event"] if event]
     ['contact', 'stick', 'maximum compression', 'slip', 'separation']
     """
-    return {
-        name("e", e): _columns(lumped.history(incidence, mass_ratio, stiffness_ratio, e, samples))
-        for e in restitution
+    contacts = {
+        e: lumped.history(incidence, mass_ratio, stiffness_ratio, e, samples) for e in restitution
     }
+    return tables.join(tables.curve(_columns(own), "lumped", e=e) for e, own in contacts.items())
 
 
-def _columns(contact: History) -> Columns:
+def _columns(contact: History) -> dict[str, Any]:
     """Columns of a history, with one vertex an event."""
     events = contact.events
     at_event = np.isin(contact.time, [event.time for event in events])

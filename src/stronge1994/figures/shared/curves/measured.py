@@ -1,4 +1,4 @@
-"""Models beside what is measured of a free sphere without spin, shot at a plane.
+"""Models of what is measured of a free sphere without spin, shot at a plane.
 
 A figure of measured series needs no other curves.py, see workflow/your_model_your_data.md.
 """
@@ -8,12 +8,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from planarimpact import lumped
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import ArrayLike
-from stronge1994 import curve_names
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.figures.shared.curves import beside
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, ArrayLike
+from stronge1994 import tables
+from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.figures.shared.curves.sampling import vertices
+from stronge1994.tables import Table
 
 # Curves with a parameter off by one sigma serve only for its effect. They have this many times
 # fewer vertices.
@@ -27,20 +27,16 @@ def curves(
     samples: int,
     tolerance: float,
     uncertainty: Mapping[str, float] | None = None,
-) -> Curves:
+) -> Table:
     """A curve of each model, with the parameters of an experiment; see `shots`.
 
     >>> sphere = {"mass_ratio": 3.5, "stiffness_ratio": 1.2, "restitution": 0.9, "friction": 0.1}
-    >>> named = curves(sphere, ["rigid"], 9, 1e-3)
-    >>> float(named["rigid"]["tangential_restitution [1]"][0])
+    >>> float(curves(sphere, ["rigid"], 9, 1e-3)["tangential_restitution [1]"].iloc[0])
     -0.0
     """
-    named: Curves = {}
-    for model in models:
-        named |= shots(model, model, experiment, uncertainty or {}, samples, tolerance)
-    for columns in named.values():
-        columns["tangential_restitution [1]"] = -columns[W] / columns[X]
-    return named
+    settings = experiment, uncertainty or {}, samples, tolerance
+    table = tables.join(own for model in models for own in shots(model, "", *settings))
+    return table.assign(**{"tangential_restitution [1]": -table[W] / table[X]})
 
 
 def groups(parameters: Mapping[str, float]) -> tuple[float, float, float]:
@@ -50,35 +46,38 @@ def groups(parameters: Mapping[str, float]) -> tuple[float, float, float]:
 
 def shots(
     model: str,
-    curve: str,
+    variant: str,
     sphere: Mapping[str, float],
     uncertainty: Mapping[str, float],
     samples: int,
     tolerance: float,
     nodes: ArrayLike = (),
-) -> Curves:
+) -> list[Table]:
     """What is measured of a sphere, by one model, and with each uncertain parameter off by a sigma.
 
     The angles from the normal reach from 0 to 90 deg; `nodes` are further ones. A restitution above
     1 counts as 1. `tolerance` is that of a continuum.
 
     >>> sphere = {"mass_ratio": 3.5, "stiffness_ratio": 1.2, "restitution": 0.9, "friction": 0.1}
-    >>> list(shots("rigid", "ball", sphere, {"friction": 0.01}, 9, 1e-3))
-    ['ball', 'ball; friction + 1 sigma', 'ball; friction - 1 sigma']
+    >>> for own in shots("rigid", "ball", sphere, {"friction": 0.01}, 9, 1e-3):
+    ...     print(own["curve"].iloc[0])
+    rigid, ball
+    rigid, ball, friction +1 sigma
+    rigid, ball, friction -1 sigma
     """
-    named = {curve: _measured(model, sphere, samples, tolerance, nodes)}
+    parts = [tables.curve(_measured(model, sphere, samples, tolerance, nodes), model, variant)]
     for parameter, sigma in uncertainty.items():
-        for sign in curve_names.SIGNS:
+        for sign in (1, -1):
             changed = {**sphere, parameter: sphere[parameter] + sign * sigma}
             changed["restitution"] = min(changed["restitution"], 1.0)
-            shifted = curve_names.shifted(curve, parameter, sign)
-            named[shifted] = _measured(model, changed, samples // COARSER, tolerance, ())
-    return named
+            columns = _measured(model, changed, samples // COARSER, tolerance, ())
+            parts.append(tables.curve(columns, model, variant, shifted=parameter, sigmas=sign))
+    return parts
 
 
 def _measured(
     model: str, sphere: Mapping[str, float], samples: int, tolerance: float, nodes: ArrayLike
-) -> Columns:
+) -> dict[str, Array]:
     """Quantities against the angle of incidence; spin only if the sphere has a speed."""
     beta, zeta2, e = groups(sphere)
     friction = sphere["friction"]
@@ -88,7 +87,7 @@ def _measured(
     # The ratio of velocities has no value at normal incidence.
     angle = vertices((0.01, 89.9), samples, thresholds, nodes)
     x = np.tan(np.radians(angle)) / friction
-    w = beside.rebound(model, tolerance, x, beta, zeta2, e).velocity
+    w = curves_below_one.rebound(model, tolerance, x, beta, zeta2, e).velocity
     centre = 1 - (x - w) / (beta * x)
     columns = {X: x, W: w, "angle [deg]": angle, "centre_restitution [1]": centre}
     if "speed" in sphere:

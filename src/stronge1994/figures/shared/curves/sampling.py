@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike
+from planarimpact.common.arrays import Array, ArrayLike
 
 # Curves must pass through these points of reference tables: `{axis without its unit: points}`.
 Nodes: TypeAlias = Mapping[str, ArrayLike]

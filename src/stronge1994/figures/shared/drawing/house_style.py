@@ -3,14 +3,12 @@
 A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py has a function
 `draw(curves, settings, points)`, which returns a Figure:
 
-- `curves`, `{curve: {column: array}}`: the result of curves.py beside it. `line` draws two columns
-  of a curve and takes the labels of the axes and of the legend from their names;
-- `settings`, as curves.py gets them, from which labels take their numbers; only of a reference
-  table they have no more than the name;
-- `points`, the series of data/ that are at hand, `{"source/series": {...}}` with their `name`, the
-  arrays `x` and `y`, their `sigma`, the names of both columns as `axes`, all `columns` and the
-  source's `parameters`, of those that were computed only what figure.yaml `draws`; and stated
-  facts, as in source.yaml. `measured` draws such points.
+- `curves`, the table that curves.py beside it made, see `stronge1994.tables`. `tables.select` gives
+  the curves with some values in their columns, and `line` draws two columns of one curve;
+- `settings`, as curves.py gets them; only of a reference table they have no more than the name;
+- `points`, the series of data/ that are at hand, `{"source/series": Scatter}`, of those that were
+  computed only what figure.yaml `draws`; and stated facts. `references` draws all published series
+  that have the axes of a panel.
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
@@ -19,9 +17,10 @@ What this repository adds to a figure of the paper has its own part of the legen
 several restitutions, `of_restitution` gives their lines; where it shows one, a pattern is a model.
 """
 
-import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import IO, Any, TypeAlias
 
 import matplotlib
@@ -34,17 +33,40 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from planarimpact.ground.arrays import Booleans
-from stronge1994 import curve_names
-from stronge1994.csv_tables import Curves
+from planarimpact.common.arrays import Array, Booleans
+from stronge1994 import names, tables, words
+from stronge1994.tables import Table
 
 File: TypeAlias = str | IO[bytes]
 Style: TypeAlias = dict[str, Any]  # keywords of matplotlib
 Dashes: TypeAlias = str | tuple[float, tuple[float, ...]]  # a pattern of line
 Settings: TypeAlias = dict[str, Any]
-Series: TypeAlias = dict[str, Any]
-Points: TypeAlias = dict[str, Series]
+Points: TypeAlias = dict[str, Any]  # `Scatter`s, and `reference_data.Fact`s
 Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Points of a series as a drawing gets them, with their errors.
+
+    `axes` names the columns of both axes; `columns` is the whole table of the series, and
+    `parameters` are those of its source.
+    """
+
+    name: str
+    is_published: bool
+    x: Array
+    y: Array
+    sigma: tuple[Array, Array]
+    axes: tuple[str, str]
+    columns: Table
+    parameters: Mapping[str, float]
+
+    def at(self, rows: Any) -> "Scatter":
+        """Some of its points."""
+        x_error, y_error = (errors[rows] for errors in self.sigma)
+        return replace(self, x=self.x[rows], y=self.y[rows], sigma=(x_error, y_error))
+
 
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
 WIDTH = 5.0
@@ -71,9 +93,13 @@ RIGID: Style = {"color": GREY, "linestyle": (0, (1, 1.5)), "linewidth": 1.2, "zo
 GUIDE: Style = {"color": "0.7", "linewidth": 0.6, "zorder": 0.9}
 SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "linewidth": 0}
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
+# A series for which a drawing has no style of its own.
+POINT: Style = {"marker": "o", "markerfacecolor": "white", "markersize": 3.6}
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
+# Parameters of curves in the paper's letters.
+SYMBOLS = {"mu": r"\mu", "nu": r"\nu", "zeta2": r"\zeta^2"}
 INCIDENCE = r"$v_1(0)/\mu v_2(0)$"
 REBOUND = r"$v_1(t_f)/\mu v_2(0)$"
 # Largest forces of an impact, to be put between dollar signs.
@@ -87,37 +113,11 @@ LETTERS = {
     "kinetic_energy [K0]": "$K(t_f)/K(0)$",
 }
 
-STYLE = {
-    "axes.linewidth": 0.7,
-    "axes.labelsize": 10.5,
-    "axes.titlesize": 10.5,
-    "errorbar.capsize": 1.5,
-    "figure.constrained_layout.h_pad": 0.05,
-    "figure.constrained_layout.w_pad": 0.05,
-    "font.family": "STIXGeneral",  # a typeface of journals
-    "font.size": 10,
-    "hatch.color": "0.7",
-    "hatch.linewidth": 0.5,
-    "legend.fontsize": 9,
-    "legend.frameon": False,
-    "legend.handlelength": 2.9,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 4,
-    "mathtext.fontset": "stix",
-    "svg.fonttype": "path",  # letters as shapes: the same in every viewer, without its fonts
-    "svg.hashsalt": "planarimpact",  # the same names inside the file at every run
-    "xtick.direction": "in",
-    "xtick.labelsize": 9.5,
-    "xtick.major.pad": 5,  # the first label keeps away from that of the other axis
-    "ytick.direction": "in",
-    "ytick.labelsize": 9.5,
-}
 # These fonts come with matplotlib. Its cached list of fonts may be older than this installation and
 # lack them: then it would use another font, whose letters are too wide for their places.
 for _font in sorted(Path(matplotlib.get_data_path(), "fonts/ttf").glob("STIX*.ttf")):
     font_manager.fontManager.addfont(_font)
-matplotlib.rcdefaults()
-matplotlib.rcParams.update(STYLE)
+matplotlib.rc_file(Path(__file__).with_name("house.mplstyle"))
 
 
 def new(height: float) -> Figure:
@@ -145,41 +145,36 @@ def save(figure: Figure, svg: File, png: File | None = None, source: str = "") -
     FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None, "Source": source})
 
 
-def symbols(name: str) -> str:
-    """Name of a curve, with its equations in mathematical letters.
+def parameters(curve: Table) -> str:
+    r"""The parameters of one curve and their values, in mathematical letters.
 
-    >>> symbols("continuum, mu = 0.1")
-    'continuum, $\\\\mu = 0.1$'
+    >>> parameters(tables.curve({"x [1]": [0.0]}, "continuum", mu=0.1, e=1.0))
+    '$\\mu = 0.1$, $e = 1$'
     """
-    return re.sub(
-        r"\w+ = [-\d.]+",
-        lambda found: f"${found[0]}$".replace("mu", r"\mu").replace("nu", r"\nu"),
-        name,
-    )
+    own = curve.select_dtypes("number").iloc[0].items()
+    values = {key: value for key, value in own if not tables.is_quantity(key)}
+    return ", ".join(f"${SYMBOLS.get(key, key)} = {value:g}$" for key, value in values.items())
 
 
 def of_column(column: str) -> str:
     """Label of a column for a reader."""
-    return LETTERS.get(column, curve_names.column(column))
+    return LETTERS.get(column, words.column(column))
 
 
 def line(
-    axes: Axes,
-    curves: Curves,
-    name: str,
-    x: str,
-    y: str,
-    rows: Booleans | None = None,
-    **style: Any,
+    axes: Axes, curve: Table, x: str, y: str, rows: Booleans | None = None, **style: Any
 ) -> Line2D:
-    """Draw column `y` of a curve against its column `x`, and label both axes.
+    """Draw column `y` of one curve against its column `x`, and label both axes.
 
-    Where `rows` is false there is a gap. `style` may have a label other than the curve's name.
+    Where `rows` is false there is a gap. `style` may have a label other than the columns that tell
+    which curve it is.
     """
-    curve = curves[name]
-    height = curve[y] if rows is None else np.where(rows, curve[y], np.nan)
+    tables.only_curve(curve)
+    height = curve[y] if rows is None else curve[y].where(rows)
     axes.set(xlabel=of_column(x), ylabel=of_column(y))
-    return axes.plot(curve[x], height, **{"label": symbols(name), "gid": f"{(x, y)}"} | style)[0]
+    which = *curve[["model", "variant"]].iloc[0], parameters(curve)
+    label = {"label": ", ".join(filter(None, which))}
+    return axes.plot(curve[x].to_numpy(), height.to_numpy(), **label | style)[0]
 
 
 def of_restitution(e: float) -> Dashes:
@@ -223,57 +218,66 @@ def legend_below(
 
 def rigid(
     axes: Axes,
-    curves: Curves,
-    name: str,
+    curve: Table,
     x: str,
     y: str,
-    compliant: str,
+    compliant: Table,
     label: str = "no tangential compliance",
 ) -> Line2D:
     """Line without tangential compliance, left out where the compliant curve is the same."""
-    rows = ~np.isclose(curves[name][y], curves[compliant][y])
-    return line(axes, curves, name, x, y, rows, label=label, **RIGID)
+    rows = ~np.isclose(curve[y], compliant[y])
+    return line(axes, curve, x, y, rows, label=label, **RIGID)
 
 
-def as_printed(axes: Axes, curves: Curves, x: str, y: str, equations: str) -> Entries:
-    """Draw what the printed equations give, and return entries of the legend.
+def as_printed(axes: Axes, curves: Table, x: str, y: str, equations: str) -> Entries:
+    """Draw what the printed equations give, see `printed_variants`; entries of the legend.
 
-    The curves of `shared.curves.as_printed` are known by their names. One of a restitution has its
-    pattern, and an entry that names it. `equations` are the numbers of the equations.
+    A curve of a restitution alone has its pattern, and an entry that names it. `equations` are the
+    numbers of the equations.
     """
     entries = {}
-    for name in curves:
-        kind, _, pair = name.partition(", ")
+    printed = curves[curves["model"] == names.PRINTED]
+    for _, own in printed.groupby("curve", sort=False):
+        curve = own.dropna(axis="columns", how="all")
         label, style = f"{equations} as printed", AS_PRINTED
-        if kind == curve_names.NO_SOLUTION:
+        if curve["variant"].iloc[0] == names.NO_SOLUTION:
             label, style = "no solution as printed", UNSOLVED
-        elif kind != curve_names.AS_PRINTED:
-            continue
-        elif pair.startswith("e = "):
-            label += f", {symbols(pair)}"
-            style = style | {"linestyle": of_restitution(float(pair.removeprefix("e = ")))}
-        entries[label] = line(axes, curves, name, x, y, label=label, **style)
+        elif "e" in curve and "mu" not in curve:
+            label += f", {parameters(curve)}"
+            style = style | {"linestyle": of_restitution(curve["e"].iloc[0])}
+        entries[label] = line(axes, curve, x, y, label=label, **style)
     return list(entries.values())
 
 
-def measured(axes: Axes, series: Series, **style: Any) -> Artist:
+def measured(axes: Axes, series: Scatter, **style: Any) -> Artist:
     """Draw points with error bars, label the axes by their columns; the entry of the legend."""
-    x_label, y_label = map(of_column, series["axes"])
+    x_label, y_label = map(of_column, series.axes)
     axes.set(xlabel=x_label, ylabel=y_label)
-    x_error, y_error = series["sigma"]
+    x_error, y_error = series.sigma
     bars = {"linestyle": "none", "elinewidth": 0.7, "markeredgewidth": 0.9, "zorder": 3}
-    bars["gid"] = series["name"]  # as that of a line, for `with_all`
-    return axes.errorbar(series["x"], series["y"], yerr=y_error, xerr=x_error, **(bars | style))
+    return axes.errorbar(series.x, series.y, yerr=y_error, xerr=x_error, **(bars | style))
 
 
-def references(axes: Axes, points: Points, wanted: Mapping[str, tuple[str, Style]]) -> Entries:
-    """Draw reference series `{name: (label, style)}`; the legend also has the awaited ones."""
-    return [
-        measured(axes, points[name], label=label, **style)
-        if name in points
-        else key(f"{label}: awaited", linestyle="none")
-        for name, (label, style) in wanted.items()
-    ]
+def references(
+    axes: Axes,
+    points: Points,
+    x: str,
+    y: str,
+    styles: Mapping[str, tuple[str, Style]] = MappingProxyType({}),
+) -> dict[str, Any]:
+    """Draw all published series with the axes of a panel; entries of the legend by their names.
+
+    `styles` has label and style of some series, which come first; one of them that is awaited has
+    an entry too.
+    """
+    entries: dict[str, Any] = {
+        name: key(f"{label}: awaited", linestyle="none") for name, (label, _) in styles.items()
+    }
+    for name, series in points.items():
+        if isinstance(series, Scatter) and series.is_published and series.axes == (x, y):
+            label, style = styles.get(name, (name, POINT))
+            entries[name] = measured(axes, series, label=label, **style)
+    return entries
 
 
 def letter(panels: Sequence[Axes]) -> None:

@@ -4,14 +4,15 @@ A strip shows what a row of the table of verdicts cannot: where points lie far f
 which side.
 """
 
-from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from collections.abc import Sequence
+from typing import Any
 
+import pandas as pd
 from matplotlib.figure import Figure
 
-from stronge1994.csv_tables import Row
 from stronge1994.figures.shared.drawing import house_style
-from stronge1994.verdict_tables.verdict_table import FAILS, QUESTIONS, Verdict
+from stronge1994.tables import Row, Table
+from stronge1994.verdict_table import COLUMNS, Question, Verdict
 
 # Inches: height of a strip with its title, and of the label of its x axis.
 STRIP, LABEL = 0.56, 0.42
@@ -29,59 +30,56 @@ MARKS: dict[str, dict[str, Any]] = {
     Verdict.INCONCLUSIVE: _hollow("o", house_style.BLACK),
     Verdict.EXPLAINED: _hollow("s", house_style.BLUE),
     Verdict.UNEXPLAINED: _hollow("D", house_style.PURPLE),
-    **dict.fromkeys(FAILS, {"color": house_style.VERMILLION, "marker": "x", "markersize": 4}),
+    **{
+        verdict: {"color": house_style.VERMILLION, "marker": "x", "markersize": 4}
+        for verdict in Verdict
+        if verdict.fails
+    },
 }
 DISTANCE = "distance [sigma]"
-# Curve, reference and quantity of a strip; and its points, x and distance, by their verdict.
-Strip: TypeAlias = tuple[str, str, str]
-Points: TypeAlias = dict[str, list[tuple[float, float]]]
 
 
-def strips(residuals: Sequence[Row], verdicts: Mapping[str, Row]) -> dict[Strip, Points]:
-    """Points of each strip; strips with the same axis follow each other.
+def strips(residuals: Table, verdicts: Sequence[Row]) -> list[Table]:
+    """Points of each strip, with their verdict; strips with the same axis follow each other.
 
-    `verdicts` has the rows of the table of verdicts by their comparisons.
+    `verdicts` has the rows of the table of verdicts for the comparisons of `residuals`.
     """
-    points: dict[Strip, Points] = {}
-    for row in residuals:
-        judged = verdicts[row["comparison"]]
-        # A landmark is one point. Of printed equations the figure draws both curves.
-        shows_more = not judged["found"] and judged["question"] != QUESTIONS[1]
-        if judged["verdict"] in MARKS and (shows_more or judged["verdict"] in FAILS):
-            strip = judged["curve"] or "all curves", judged["reference"], row["quantity"]
-            part = points.setdefault(strip, {}).setdefault(judged["verdict"], [])
-            part.append((float(row["at"]), float(row[DISTANCE])))
-    quantities = list(dict.fromkeys(quantity for _, _, quantity in points))
-    return {
-        strip: points[strip] for strip in sorted(points, key=lambda one: quantities.index(one[2]))
-    }
+    judged = pd.DataFrame(verdicts, columns=COLUMNS)
+    every = residuals.merge(judged, on="comparison")
+    failing = every["verdict"].isin([verdict for verdict in Verdict if verdict.fails])
+    # A landmark is one point. Of printed equations the figure draws both curves.
+    shows_more = (every["found"] == "") & (every["question"] != Question.PRINTED)
+    shown = every[every["verdict"].isin(MARKS) & (shows_more | failing)]
+    return [
+        strip
+        for _, of_axis in shown.groupby("quantity", sort=False)
+        for _, strip in of_axis.groupby(["curve", "reference"], sort=False)
+    ]
 
 
-def draw(strips: Mapping[Strip, Points]) -> Figure:
+def draw(strips: Sequence[Table]) -> Figure:
     """Draw the strips of one figure, as `strips` gives them."""
     # Of several strips with the same axis only the last has a label below it.
-    axis = [quantity for _, _, quantity in strips]
+    axis = [strip["quantity"].iloc[0] for strip in strips]
     labelled = [i + 1 == len(axis) or axis[i + 1] != axis[i] for i in range(len(axis))]
     figure = house_style.new(STRIP * len(strips) + LABEL * sum(labelled) + 0.8)
     rows = figure.subplots(len(strips), squeeze=False)[:, 0]
     note = {"fontsize": house_style.NOTE}
-    for axes, last, (strip, points) in zip(rows, labelled, strips.items(), strict=True):
-        for verdict, places in points.items():
-            axes.plot(*zip(*places, strict=True), linestyle="none", **MARKS[verdict])
+    for axes, last, strip, quantity in zip(rows, labelled, strips, axis, strict=True):
+        for verdict, points in strip.groupby("verdict", sort=False):
+            axes.plot(points["at"], points[DISTANCE], linestyle="none", **MARKS[verdict])
         axes.axhline(0, **house_style.GUIDE)
-        axes.set_title(f"{strip[0]}  -  {strip[1]}", loc="left", pad=3, **note)
+        curve, reference = strip[["curve", "reference"]].iloc[0]
+        axes.set_title(f"{curve or 'all curves'}  -  {reference}", loc="left", pad=3, **note)
         axes.margins(x=0.02, y=0.25)
         axes.tick_params(labelsize=house_style.NOTE, labelbottom=last)
-        axes.set_xlabel(house_style.of_column(strip[2]), visible=last, **note)
+        axes.set_xlabel(house_style.of_column(quantity), visible=last, **note)
     for axes, quantity in zip(rows, axis, strict=True):
         same = [a for a, q in zip(rows, axis, strict=True) if q == quantity]
         axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))
     figure.supylabel(house_style.of_column(DISTANCE), fontsize=house_style.NOTE + 1)
-    drawn = {verdict for points in strips.values() for verdict in points}
-    keys = [
-        house_style.key(verdict, linestyle="none", **mark)
-        for verdict, mark in MARKS.items()
-        if verdict in drawn
-    ]
+    drawn = {verdict for strip in strips for verdict in strip["verdict"]}
+    marks = [(verdict, mark) for verdict, mark in MARKS.items() if verdict in drawn]
+    keys = [house_style.key(verdict, linestyle="none", **mark) for verdict, mark in marks]
     house_style.legend_below(figure, keys)
     return figure

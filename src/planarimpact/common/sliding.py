@@ -33,7 +33,7 @@ x > beta + e (beta - zeta^2) (at v = -e).
 
 import numpy as np
 
-from planarimpact.ground.arrays import SMALLEST, Array, Number, Numbers
+from planarimpact.common.arrays import SMALLEST, Array, Number, Numbers
 
 
 def change(beta: Number, e: float | Number) -> Number:

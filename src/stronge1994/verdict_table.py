@@ -4,18 +4,15 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from enum import StrEnum
 
-from stronge1994 import csv_tables
-from stronge1994.csv_tables import Row
+from stronge1994 import tables
+from stronge1994.tables import Row
 
 COLUMNS = [
     "figure", "comparison", "question", "verdict", "reference", "points", "chi^2",
     "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
-    "rms [axis units]", "max [axis units]", "unit", "curve", "found", "stated", "allowed",
+    "rms [axis units]", "max [axis units]", "unit", "curve", "model", "found", "stated", "allowed",
     "regression", "note", "reason",
 ]  # fmt: skip
-# The questions that a comparison answers: is the curve that of our model, do the model and the
-# paper say the same, and what do measurements and others say?
-QUESTIONS = ("solved right", "as printed", "beside others")
 LEDGER = "ledger: "  # a note that begins so names an entry of the ledger
 
 
@@ -46,17 +43,42 @@ class Verdict(StrEnum):
     RIGHT = "right"
     UNCHANGED = "as before"
 
+    @property
+    def fails(self) -> bool:
+        """Whether it fails a run."""
+        return self in (Verdict.WRONG, Verdict.DIVERGES)
 
-ORDER: list[str] = [*Verdict]
-# The verdict that fails a run, by the question that a comparison answers.
-FAILED = dict.fromkeys(QUESTIONS, Verdict.DIVERGES) | {QUESTIONS[0]: Verdict.WRONG}
-FAILS = (Verdict.WRONG, Verdict.DIVERGES)
-DIFFERENCES = [Verdict.UNEXPLAINED, Verdict.UNTESTED, Verdict.EXPLAINED]
+    @property
+    def differs(self) -> bool:
+        """Whether it is that of a known difference."""
+        return self in (Verdict.UNEXPLAINED, Verdict.UNTESTED, Verdict.EXPLAINED)
+
+
+class Question(StrEnum):
+    """The question that a comparison answers.
+
+    SOLVED: is the curve that of our model? PRINTED: do the model and the paper state the same?
+    OTHERS: what do measurements and other authors find?
+    """
+
+    SOLVED = "solved right"
+    PRINTED = "as printed"
+    OTHERS = "beside others"
+
+    @property
+    def failed(self) -> Verdict:
+        """The verdict of a comparison that fails."""
+        return Verdict.WRONG if self == Question.SOLVED else Verdict.DIVERGES
+
+
+def fails(row: Row) -> bool:
+    """Whether a row fails a run."""
+    return Verdict(row["verdict"]).fails
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
     """Rows of several tables."""
-    return [row for path in paths for row in csv_tables.read_rows(path, COLUMNS)]
+    return [row for path in paths for row in tables.read_rows(path, COLUMNS)]
 
 
 def why(row: Row) -> str:
@@ -85,10 +107,10 @@ def counts(rows: Sequence[Row]) -> str:
     """
     numbers = Counter((row["question"], row["verdict"]) for row in rows)
     lines = []
-    for question in QUESTIONS:
+    for question in Question:
         parts = [
             f"{numbers[question, verdict]} {verdict.removesuffix(' difference')}"
-            for verdict in ORDER
+            for verdict in Verdict
             if numbers[question, verdict]
         ]
         lines += [f"{question}: {', '.join(parts)}"] if parts else []
@@ -101,6 +123,6 @@ def measured(row: Row) -> str:
         return f"{row['found']} (stated {row['stated']})"
     if row["p"]:
         return f"chi^2 {row['chi^2']} of {row['degrees of freedom']}, p = {row['p']}"
-    if row["points"] and row["question"] == QUESTIONS[1]:  # sigma is that of a printed formula
+    if row["points"] and row["question"] == Question.PRINTED:  # sigma is that of a printed formula
         return f"rms {row['rms [axis units]']}, max {row['max [axis units]']} {row['unit']}"
     return f"rms {row['rms [sigma]']}, max {row['max [sigma]']} sigma" if row["points"] else ""

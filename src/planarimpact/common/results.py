@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact.ground.arrays import Array, Integers
+from planarimpact.common.arrays import Array, Integers
 
 
 class Regime(IntEnum):

@@ -1,4 +1,4 @@
-"""The rung of each impact: a formula, the table of spheres, or the continuum, solved.
+"""The method that solves each impact: a formula, the table of spheres, or the continuum, solved.
 
 Slip throughout and head-on impacts have a formula that is exact. `spheres` has a table of the
 continuum, nearly as fast as a formula; it takes the impacts that it covers, where its error is
@@ -12,10 +12,10 @@ import numpy as np
 
 from planarimpact import continuum, models, spheres
 from planarimpact.collision.mechanics import Impacts, slides_throughout
-from planarimpact.ground import sliding
-from planarimpact.ground.arrays import Array, Integers
-from planarimpact.ground.checks import ConvergenceError
-from planarimpact.ground.results import Rebound, Regime
+from planarimpact.common import sliding
+from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.checks import ConvergenceError
+from planarimpact.common.results import Rebound, Regime
 
 # Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
 # that is solved has no larger error in v1(0) either, so that friction of any size has an effect.
@@ -24,7 +24,7 @@ TOLERANCE = 5e-3
 ROUNDING = 1e-12
 
 
-class Rung(NamedTuple):
+class Method(NamedTuple):
     """A model, the way to its answer ("formula", "table" or "solved"), and why impacts get it."""
 
     model: str
@@ -49,18 +49,18 @@ CONTINUUM_WAYS = (
 )
 CONTINUA = ("continuum", *models.losses("continuum").values())
 TABLED, TOO_COARSE, NOT_COVERED = range(len(CONTINUUM_WAYS))
-RUNGS = (
-    Rung("slip throughout", "formula", "they slide from first to last, by Coulomb's law"),
-    Rung("head-on", "formula", "they have no tangential motion"),
-    *(Rung(model, way, why) for way, why in CONTINUUM_WAYS for model in CONTINUA),
+METHODS = (
+    Method("slip throughout", "formula", "they slide from first to last, by Coulomb's law"),
+    Method("head-on", "formula", "they have no tangential motion"),
+    *(Method(model, way, why) for way, why in CONTINUUM_WAYS for model in CONTINUA),
 )
 SLIDING, HEAD_ON, FIRST_OF_CONTINUA = 0, 1, 2
 
 
 def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
-    """The place of each impact's rung in `RUNGS`, and the largest error of its answer [m/s].
+    """The place of each impact's method in `METHODS`, and the largest error of its answer [m/s].
 
-    The rung of an impact is the first of `RUNGS` that fits; no other function decides it. The
+    The method of an impact is the first of `METHODS` that fits; no other function decides it. The
     error is one of velocity; over mu v2(0) that of peak friction, in mu times the peak normal
     force, is not larger.
     """
@@ -93,7 +93,7 @@ def table_error(bound: Any, mass_ratio: Any, x: Any) -> Any:
 class Answers(NamedTuple):
     """Answers to impacts, arrays of shape (n,), and messages for impacts without an answer."""
 
-    place: Integers  # of the rung, in `RUNGS`
+    place: Integers  # of the method, in `METHODS`
     change: Array  # of the velocity of the contact point [m/s]; slip throughout knows it best
     velocity: Array  # of the contact point at separation [m/s]
     peak_friction: Array  # mu times the peak normal force; NaN where it is not asked for
@@ -103,7 +103,7 @@ class Answers(NamedTuple):
 
 
 def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
-    """Each impact answered by its rung, with its peak friction or, in less time, without."""
+    """Each impact answered by its method, with its peak friction or, in less time, without."""
     place, error = of_each(impacts, tolerance)
     slides = place == SLIDING
     with np.errstate(over="ignore"):
@@ -120,15 +120,15 @@ def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
 def _add_continuum(
     result: Answers, impacts: Impacts, number: int, tolerance: float, peaks: bool
 ) -> None:
-    """Write the answers of one rung into the result."""
-    rung, rows = RUNGS[number], np.flatnonzero(result.place == number)
+    """Write the answers of one method into the result."""
+    method, rows = METHODS[number], np.flatnonzero(result.place == number)
     x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
-    if rung.way == "solved":
-        rebound, with_answer, messages = solved(rung.loss, x, groups, _tolerance(x, tolerance))
+    if method.way == "solved":
+        rebound, with_answer, messages = solved(method.loss, x, groups, _tolerance(x, tolerance))
         result.unsolved.update({int(rows[i]): message for i, message in messages.items()})
         rows = rows[with_answer]
     else:  # at e = 1 the table has the same answer for both losses
-        loss = rung.loss or continuum.LOSSES[0]
+        loss = method.loss or continuum.VISCOUS
         rebound = spheres.rebound(x, *groups, loss=loss, forces=peaks)
     result.velocity[rows] = rebound.velocity * impacts.unit[rows]
     result.change[rows] = result.velocity[rows] - impacts.v1[rows]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array
+from planarimpact.common.arrays import Array
 
 HALF_PI = np.pi / 2
 

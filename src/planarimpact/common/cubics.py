@@ -1,6 +1,6 @@
 """Cubics through values and changes at both ends of a step."""
 
-from planarimpact.ground.arrays import Array, Numbers
+from planarimpact.common.arrays import Array, Numbers
 
 
 def between(before: Array, after: Array, rise: Array, fall: Array, share: Numbers) -> Array:

@@ -1,20 +1,16 @@
-"""Lines of several models of an impact, beside measured points with their errors.
+"""Lines of several models of an impact, as they are compared with measured points.
 
 A colour stands for the cause of the loss: black for the normal element of the paper, purple for the
 same with e^2 zeta^2, vermillion and orange for plastic flow, blue for viscosity, green for none.
 """
 
-from collections.abc import Iterable
-
 from matplotlib.axes import Axes
 
-from stronge1994 import curve_names
-from stronge1994.csv_tables import Curves
-from stronge1994.curve_names import ELASTIC, ELASTIC_IN_SHEAR
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import DASHES, Entries, Style
+from stronge1994.names import ELASTIC, ELASTIC_IN_SHEAR
+from stronge1994.tables import Table
 
-MODELS = curve_names.MODELS[::-1]  # those of the paper's kind first
 # Each model's line with its marks.
 STYLES: dict[str, Style] = {
     model: {"label": label, "color": colour, "linestyle": dashes, "marker": marker}
@@ -30,22 +26,18 @@ STYLES: dict[str, Style] = {
         (ELASTIC_IN_SHEAR, "plastic, elastic in shear", house_style.VERMILLION, DASHES[1], "<"),
     )
 }
-POINT: Style = {"color": house_style.BLACK, "marker": "o", "markerfacecolor": "white"}
-POINT |= {"markersize": 3.6, "linestyle": "none"}
+POINT: Style = house_style.POINT | {"color": house_style.BLACK, "linestyle": "none"}
 
 
-def lines(
-    axes: Axes,
-    curves: Curves,
-    end: str,
-    x: str,
-    y: str,
-    models: Iterable[str] = MODELS,
-    note: str = "",
-) -> Entries:
-    """Draw the curve `<model>, <end>` of each model; `note` ends their labels."""
-    entries = []
-    for model in models:
-        style = STYLES[model] | {"label": STYLES[model]["label"] + note, "marker": ""}
-        entries.append(house_style.line(axes, curves, f"{model}, {end}", x, y, **style))
-    return entries
+def draw(axes: Axes, curves: Table, x: str, y: str, note: str = "") -> Entries:
+    """Draw curves, one of each model, in the style of the model; `note` ends their labels."""
+    return [
+        house_style.line(
+            axes,
+            own,
+            x,
+            y,
+            **STYLES[model] | {"label": STYLES[model]["label"] + note, "marker": ""},
+        )
+        for model, own in curves.groupby("model", sort=False)
+    ]

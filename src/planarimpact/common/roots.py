@@ -10,8 +10,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.ground.arrays import SMALLEST, Array, Booleans
-from planarimpact.ground.checks import ConvergenceError
+from planarimpact.common.arrays import SMALLEST, Array, Booleans
+from planarimpact.common.checks import ConvergenceError
 
 # Takes an index of brackets (integers, or a slice for all) and a place in each. Returns a tuple:
 # the value there, and none, one or two of its derivatives. No square of a derivative may leave the

@@ -1,4 +1,4 @@
-"""Models of an impact that loses energy: beside curves, and at measured points."""
+"""Models of an impact that loses energy, e < 1: as curves, and at measured points."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
@@ -7,10 +7,9 @@ import numpy as np
 
 from planarimpact import bodies, models
 from planarimpact.bodies import Material
-from planarimpact.ground.arrays import Array, ArrayLike
-from planarimpact.ground.results import Rebound
-from stronge1994.csv_tables import Columns, Curves
-from stronge1994.curve_names import EACH, SIGNS, name, shifted
+from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.results import Rebound
+from stronge1994.tables import sigma_name
 
 
 def rebound(model: str, tolerance: float, *groups: ArrayLike) -> Rebound:
@@ -25,20 +24,19 @@ def rebound(model: str, tolerance: float, *groups: ArrayLike) -> Rebound:
 
 def rebounds_of_continua(
     continua: Mapping[str, Any] | None, x: ArrayLike, mass_ratio: float, stiffness_ratio: float
-) -> Iterator[tuple[str, Rebound]]:
-    """Names of curves and rebounds of each continuum at each restitution, if `continua` is set.
+) -> Iterator[tuple[str, float, Rebound]]:
+    """Model, restitution and rebound of each continuum at each restitution, if `continua` is set.
 
     >>> settings = {"models": ["continuum.viscous"], "restitution": [0.5], "tolerance": 1e-3}
-    >>> ((name, found),) = rebounds_of_continua(settings, [6.0], 3.5, 1.21)
-    >>> name, found.velocity.tolist()
-    ('continuum.viscous, e = 0.5', [0.75])
+    >>> ((model, e, found),) = rebounds_of_continua(settings, [6.0], 3.5, 1.21)
+    >>> model, e, found.velocity.tolist()
+    ('continuum.viscous', 0.5, [0.75])
     """
     if not continua:
         return
     for e in continua["restitution"]:
         for model in continua["models"]:
-            found = rebound(model, continua["tolerance"], x, mass_ratio, stiffness_ratio, e)
-            yield f"{model}, {name('e', e)}", found
+            yield model, e, rebound(model, continua["tolerance"], x, mass_ratio, stiffness_ratio, e)
 
 
 def stiffness_ratio(nu: float) -> float:
@@ -66,24 +64,15 @@ def each_lowered(parameters: ArrayLike, sigmas: ArrayLike) -> Array:
     return cases
 
 
-def with_sigma(
-    curve: str, point: str, labels: Columns, column: str, cases: Iterable[Array]
-) -> Curves:
-    """A curve, and the same with its standard deviation added and taken away.
+def with_sigma(column: str, cases: Iterable[Array]) -> dict[str, Array]:
+    """A column of points, and its standard deviation from parameters that are each point's own.
 
     `cases` has the values as stated, then those with one parameter off by a sigma, as
-    `each_lowered` has them. These parameters are each point's own; `point` says what a point is.
+    `each_lowered` has them.
 
-    >>> for name, columns in with_sigma("a", "pair", {}, "y", np.array([[1.0], [1.3]])).items():
-    ...     print(name, columns["y"].round(1))
-    a [1.]
-    a; each pair's parameters + 1 sigma [1.3]
-    a; each pair's parameters - 1 sigma [0.7]
+    >>> with_sigma("y [1]", np.array([[1.0], [1.5]]))
+    {'y [1]': array([1.]), 'y_sigma [1]': array([0.5])}
     """
     stated, *others = cases
     sigma = np.sqrt(np.sum(np.square([other - stated for other in others]), axis=0))
-    named = {curve: labels | {column: stated}}
-    for sign in SIGNS:
-        title = shifted(curve, f"{EACH}{point}'s parameters", sign)
-        named[title] = labels | {column: stated + sign * sigma}
-    return named
+    return {column: stated, sigma_name(column): sigma}

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.ground.arrays import Array, ArrayLike, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Numbers
 
 # Largest incidence and mass ratio: twice as much is still below the largest float64.
 LARGEST = 8e307
@@ -114,10 +114,15 @@ def checked(
     if missing:
         passes |= np.isnan(numbers)
     if not passes.all():
-        index = tuple(int(i) for i in np.argwhere(~passes)[0])
-        where = f"[{', '.join(map(str, index))}]" if index else ""
-        raise InputError(f"{name}{where} = {float(numbers[index])}: allowed are {allowed}")
+        raise InputError(f"{_first(name, numbers, ~passes)}: allowed are {allowed}")
     return numbers
+
+
+def _first(name: str, numbers: Array, wrong: Booleans) -> str:
+    """The first wrong number, with its name and place."""
+    index = tuple(int(i) for i in np.argwhere(wrong)[0])
+    where = f"[{', '.join(map(str, index))}]" if index else ""
+    return f"{name}{where} = {float(numbers[index])}"
 
 
 def _is_masked(value: object) -> bool:
@@ -217,23 +222,23 @@ def losses(value: Any, allowed: tuple[str, ...]) -> Array:
     return codes
 
 
-def lossless(value: ArrayLike, choices: Iterable[str], by: str = "loss") -> None:
-    """Refuse a restitution below 1 where nobody said what takes the energy; `by` can say it.
-
-    `choices` are names of losses, or of models with a loss.
+def require_loss(value: ArrayLike, choices: Iterable[str], needed: str = "a loss") -> None:
+    """Refuse a restitution below 1 without a loss; `choices` are losses, or models with a loss.
 
     Examples
     --------
-    >>> lossless([1.0, 0.8], ["hysteretic", "viscous"])
+    >>> require_loss([1.0, 0.8], ["hysteretic", "viscous"])
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution[1] = 0.8: allowed are numbers equal to 1, unless loss \
-says what takes the energy: hysteretic (the paper's), viscous
+    planarimpact.InputError: restitution[1] = 0.8: below 1 it needs a loss: choose hysteretic \
+(the paper's), viscous
     """
-    restitution(value)
+    numbers = restitution(value)
+    if (numbers == 1).all():
+        return
     names = [f"{one} (the paper's)" if one.endswith("hysteretic") else one for one in choices]
-    words = f"numbers equal to 1, unless {by} says what takes the energy: {', '.join(names)}"
-    checked("restitution", value, words, 1, 1)
+    lossy = _first("restitution", numbers, numbers < 1)
+    raise InputError(f"{lossy}: below 1 it needs {needed}: choose {', '.join(names)}")
 
 
 # The groups, in the order of every model's arguments, and their checks.

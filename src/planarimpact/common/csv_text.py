@@ -3,7 +3,7 @@
 import csv
 import io
 
-from planarimpact.ground.checks import InputError
+from planarimpact.common.checks import InputError
 
 # What files begin with that are no text in UTF-8.
 OTHERS = {b"\xff\xfe": "UTF-16", b"\xfe\xff": "UTF-16", b"\x1f\x8b": "packed by gzip"}

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from planarimpact.ground.checks import InputError
+from planarimpact.common.checks import InputError
 
 
 @contextmanager
@@ -21,7 +21,7 @@ def written(path: str | Path) -> Iterator[Path]:
     Yields
     ------
     Path
-        The same name in a new folder beside it, which is removed after an error too.
+        The same name in a new folder next to it, which is removed after an error too.
 
     Raises
     ------

@@ -1,0 +1,1 @@
+"""What every package uses: types, checks, results, and files written whole or not at all."""

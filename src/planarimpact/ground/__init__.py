@@ -1,1 +1,0 @@
-"""What every room stands on: types, checks, results, and files written whole or not at all."""

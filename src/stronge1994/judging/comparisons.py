@@ -1,0 +1,193 @@
+"""A comparison: what figure.yaml and source.yaml state of it, read once."""
+
+from collections.abc import Mapping
+from dataclasses import field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from pydantic.dataclasses import dataclass
+
+from planarimpact.common.arrays import Array
+from stronge1994 import reference_data, tables
+from stronge1994.reference_data import Axis, Fact, Series
+from stronge1994.tables import Table
+from stronge1994.verdict_table import Question, Verdict
+
+PAPER = "stronge1994"  # the source that has what the paper states
+
+
+class Metric(StrEnum):
+    """What a comparison measures.
+
+    Against points: the `distance` from a curve, or from its `vertices`. Against a stated fact: a
+    `landmark` of a curve. Against a law, without a reference: a column that must be `small`, or two
+    that must be equal; columns whose values have a `range`; or neighbours that must not leave
+    further apart than they arrive (`contraction`).
+    """
+
+    DISTANCE = "distance"
+    VERTICES = "vertices"
+    LANDMARK = "landmark"
+    SMALL = "small"
+    RANGE = "range"
+    CONTRACTION = "contraction"
+
+
+class Regime(StrEnum):
+    """A part of the axis of incidence; the limits of the regimes divide it into these, in order."""
+
+    STICK = "initial stick"
+    SLIP_STICK = "slip and stick"
+    SLIP = "slip throughout"
+
+
+@dataclass(frozen=True)
+class Landmark:
+    """A landmark of a curve, see `judging.landmarks`; `x` and `y` are columns."""
+
+    kind: str
+    x: str
+    y: str
+    at: float | str | None = None
+
+
+@dataclass(frozen=True)
+class KnownDifference:
+    """What is known of a documented difference, and its cause: an entry of the ledger or a note."""
+
+    kind: str
+    entry: str = ""
+    note: str = ""
+
+    @property
+    def verdict(self) -> Verdict:
+        """Verdict of a comparison with this difference."""
+        return Verdict(f"{self.kind} difference")
+
+
+@dataclass(frozen=True)
+class Allowance:
+    """How far the model may be off by its form, in units of the axes."""
+
+    x: float = 0.0
+    y: float = 0.0
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One comparison of a figure or scene.
+
+    `curve` selects curves by their columns, see `tables.select`; empty, each point of the reference
+    selects its own by its labels. Of the reference are compared only the points with these labels,
+    `points`, in the `regime`. A known difference has bounds of regression, which are `rms`, `max`,
+    `chi2` or `difference` about what was found, and say nothing on what is right.
+    """
+
+    name: str
+    metric: Metric
+    reason: str
+    reference: Series | Fact | None = None
+    curve: dict[str, Any] = field(default_factory=dict)
+    points: dict[str, Any] = field(default_factory=dict)
+    regime: Regime | None = None
+    allowance: Allowance | None = None
+    landmark: Landmark | None = None
+    columns: list[str] = field(default_factory=list)
+    range: tuple[float, float] | None = None
+    limit: float = 1.0
+    fitted: bool = False
+    documented: KnownDifference | None = None
+    regression: dict[str, tuple[float, float]] = field(default_factory=dict)
+
+    @classmethod
+    def of(
+        cls, name: str, entry: Mapping[str, Any], references: Mapping[str, Mapping[str, Any]]
+    ) -> "Comparison":
+        """A comparison from its entry in figure.yaml, and from source.yaml `{source/name: entry}`.
+
+        >>> law = {"metric": "small", "columns": ["x [1]"], "reason": "a law"}
+        >>> Comparison.of("a", law, {}).question.value
+        'solved right'
+        """
+        own = {**entry, "name": name}
+        if "reference" in entry:
+            full = entry["reference"]
+            own["reference"] = reference_data.of(full, references[full])
+        if "documented" in entry:
+            own["documented"] = {"kind": entry["documented"]["as"], **entry["documented"]}
+        return cls(**own)
+
+    @property
+    def is_published(self) -> bool:
+        """Whether the reference has points of nature."""
+        return isinstance(self.reference, Series) and self.reference.is_published
+
+    @property
+    def question(self) -> Question:
+        """Which question it answers.
+
+        OTHERS: points of nature, and what other codes compute and others state. PRINTED: what the
+        paper states, and a difference that is an entry of the ledger. All else, our second codes
+        and laws, asks only whether our curve is SOLVED right.
+        """
+        known, reference = self.documented, self.reference
+        if isinstance(reference, Fact):
+            by_paper = reference.name.split("/")[0] == PAPER
+            return Question.PRINTED if by_paper else Question.OTHERS
+        if reference is not None and (reference.is_published or reference.others):
+            return Question.OTHERS
+        return Question.PRINTED if known and known.entry else Question.SOLVED
+
+    def selected_points(self, series: Series) -> tuple[Table, list[Array]]:
+        """The points of its reference that are compared, and for each y axis their sigmas.
+
+        These have a row for each point, with x and y; they have the allowance for the model.
+        """
+        points = series.points()
+        low, high = self._window(series)
+        x = points[series.x.name]
+        chosen = points[tables.where(points, **self.points) & (x >= low) & (x < high)]
+        if chosen.empty:
+            raise ValueError("the reference has no such points")
+        along = self._sigma(series.x, chosen, "x")
+        both = [[along, self._sigma(y, chosen, "y")] for y in series.ordinates]
+        return chosen, [np.transpose(sigmas) for sigmas in both]
+
+    def _sigma(self, axis: Axis, points: Table, which: str) -> Array:
+        size = points[axis.sigma_name] if axis.sigma_name else axis.sigma
+        if not np.all(size):
+            raise ValueError("a point that is compared has an uncertainty of 0")
+        allowed = getattr(self.allowance, which, 0.0)
+        return np.broadcast_to(np.hypot(size, allowed), len(points))
+
+    def _window(self, series: Series) -> tuple[float, float]:
+        """Where its regime begins and ends on the axis, by the parameters of the source."""
+        if self.regime is None:
+            return -np.inf, np.inf
+        stated = series.parameters
+        groups = (stated[key] for key in ("mass_ratio", "stiffness_ratio", "restitution"))
+        limits = limits_of_regimes(*groups)
+        if series.x.column == "angle":
+            limits = np.degrees(np.arctan(stated["friction"] * limits))
+        ends = [-np.inf, *limits, np.inf]
+        place = list(Regime).index(self.regime)
+        return ends[place], ends[place + 1]
+
+
+def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:
+    """Incidences at which a contact no longer sticks at first, and at which it slips throughout.
+
+    Every model with Coulomb friction and both compliances has these limits (Stronge 1994, Eq. 11,
+    and the incidence above which slip does not end by its Eqs 17 to 20). They are in mu v2(0), and
+    e must be above 0. For zeta^2 > beta both are zeta^2: a contact that slips at first slips
+    throughout. The limits select the points of a comparison. They are computed here, because a
+    judge must not ask the solver that it judges.
+
+    >>> limits_of_regimes(3.5, 1.21, 1.0).round(2).tolist()
+    [1.21, 5.79]
+    >>> limits_of_regimes(3.5, 5.0, 1.0).tolist()
+    [5.0, 5.0]
+    """
+    beta, zeta2, e = mass_ratio, stiffness_ratio, restitution
+    return np.array([zeta2, max(zeta2, beta + max(0.0, e * beta - zeta2 / e))])

@@ -1,0 +1,187 @@
+"""Series and stated facts of a source.yaml as objects with fields, and the points of a series."""
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from pydantic.dataclasses import dataclass
+
+from planarimpact.common import csv_text
+from stronge1994.tables import Table
+
+# Kinds of series that hold points of nature: published ones, or measured by their owner.
+PUBLISHED = ("measured", "digitised", "stated", "awaited")
+# float() would also take `1_000`, `nan` and digits of other scripts.
+NUMBER = re.compile(r"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?")
+# Sigmas by which a value may lie outside the range of its axis.
+MOST_SIGMAS_OUTSIDE = 3
+
+
+class SourceError(Exception):
+    """Something in data/ contradicts source.yaml or its schema."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis: a column of a series, its unit, what its values can be, and their sigma.
+
+    `sigma` is one number for all points, or the name of the column that has that of each.
+    """
+
+    column: str
+    unit: str
+    sigma: float | str
+    range: tuple[float, float]
+
+    @property
+    def name(self) -> str:
+        """Column header: with its unit in brackets if it has one."""
+        return f"{self.column} [{self.unit}]" if self.unit else self.column
+
+    @property
+    def sigma_name(self) -> str | None:
+        """Column header of the uncertainties; None where one number holds for all.
+
+        >>> Axis("friction", "1", "friction_uncertainty", (0, 1)).sigma_name
+        'friction_uncertainty [1]'
+        """
+        if not isinstance(self.sigma, str):
+            return None
+        return Axis(self.sigma, self.unit, 0.0, self.range).name
+
+
+@dataclass(frozen=True)
+class Fact:
+    """A number that a source states, with a tolerance; or an inequality that it states."""
+
+    name: str
+    unit: str
+    value: float | None = None
+    tolerance: float | None = None
+    less_than: float | None = None
+    greater_than: float | None = None
+
+
+@dataclass(frozen=True)
+class Series:
+    """Points of one source: its entry in source.yaml.
+
+    `path` is that of its table, None while it is awaited. `others` says that a code which is not
+    ours computed it. `sigma_values` is the number of independent values from which the sigmas were
+    estimated, None if they are known. `parameters` are those of the source, by name.
+    """
+
+    kind: str
+    x: Axis
+    y: Axis | tuple[Axis, ...]
+    path: str | None = None
+    name: str = ""  # source/series
+    given: tuple[Axis, ...] = ()
+    labels: tuple[str, ...] = ()
+    others: bool = False
+    sigma_values: int | None = None
+    figure: str = ""
+    parameters: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def ordinates(self) -> tuple[Axis, ...]:
+        """The y axes."""
+        return self.y if isinstance(self.y, tuple) else (self.y,)
+
+    @property
+    def axes(self) -> dict[str, Axis]:
+        """All axes, by their places in source.yaml."""
+        y = {f"y.{place}": axis for place, axis in enumerate(self.ordinates)}
+        given = {f"given.{place}": axis for place, axis in enumerate(self.given)}
+        return {"x": self.x} | (y if isinstance(self.y, tuple) else {"y": self.y}) | given
+
+    @property
+    def is_published(self) -> bool:
+        """Whether it holds points of nature, see `PUBLISHED`."""
+        return self.kind in PUBLISHED
+
+    def points(self) -> Table:
+        """Read and check the points: quantities as numbers; labels as numbers if all of them are.
+
+        If there are several y axes, some of their cells may be empty: these become nan. A
+        `SourceError` names file, line, column and value.
+        """
+        path = str(self.path)
+        axes = {axis.name: axis for axis in self.axes.values()}
+        for axis in list(axes.values()):
+            if axis.sigma_name:
+                low, high = axis.range
+                axes[axis.sigma_name] = Axis(axis.sigma_name, "", 0.0, (0.0, high - low))
+        lines, cells = _cells(path, [*self.labels, *axes])
+        may_be_empty = {axis.name for axis in self.y} if isinstance(self.y, tuple) else set()
+        columns: dict[str, Any] = {label: _label(cells[label]) for label in self.labels}
+        for column, axis in axes.items():
+            columns[column] = [
+                _number(cell, axis, f"{path}, line {line}, column '{column}'")
+                if cell or column not in may_be_empty
+                else math.nan
+                for line, cell in zip(lines, cells[column], strict=True)
+            ]
+        return pd.DataFrame(columns)
+
+
+def of(name: str, entry: Mapping[str, Any]) -> Series | Fact:
+    """A series or a fact `source/name` from its entry in source.yaml; a series has a `kind`."""
+    return (Series if "kind" in entry else Fact)(**{**entry, "name": name})
+
+
+def text_of(path: str | Path) -> str:
+    """Text of a file in UTF-8; of one that is none a `SourceError` names the line."""
+    try:
+        return csv_text.decoded(Path(path).read_bytes())
+    except OSError as error:
+        raise SourceError(f"{path}: {error.strerror}") from None
+    except ValueError as error:
+        raise SourceError(f"{path}, {error}") from None
+
+
+def _cells(path: str, columns: list[str]) -> tuple[list[int], dict[str, list[str]]]:
+    """Lines of the rows of a table, and the cells of these columns, which it must have."""
+    try:
+        header, rows = csv_text.rows(text_of(path))
+    except ValueError as error:
+        raise SourceError(f"{path}, {error}") from None
+    for column in columns:
+        if header.count(column) != 1:
+            problem = "stands twice" if column in header else "is missing"
+            found = ascii(", ".join(header))[1:-1]
+            raise SourceError(f"{path}, line 1: column '{column}' {problem}; found {found}")
+    if not rows:
+        raise SourceError(f"{path}: no points")
+    places = {column: header.index(column) for column in columns}
+    cells = {column: [row[place] for _, row in rows] for column, place in places.items()}
+    return [line for line, _ in rows], cells
+
+
+def _label(cells: list[str]) -> Any:
+    """Labels of points as numbers, if all are numbers or empty; else as texts."""
+    if any(cells) and all(NUMBER.fullmatch(cell) for cell in cells if cell):
+        return np.array([float(cell or "nan") for cell in cells])
+    return cells
+
+
+def _number(cell: str, axis: Axis, where: str) -> float:
+    """A decimal number, at most a little outside the range of its axis."""
+    text = cell.strip()
+    if not NUMBER.fullmatch(text):
+        raise SourceError(f"{where}: {ascii(text)} is not a decimal number such as -0.05")
+    value = float(text)
+    low, high = axis.range
+    # Values with an uncertainty of their own lie in the range: no axis of a picture was read.
+    beyond = 0.0 if isinstance(axis.sigma, str) else MOST_SIGMAS_OUTSIDE * axis.sigma
+    if not low - beyond <= value <= high + beyond:
+        raise SourceError(
+            f"{where}: {text} is outside {low:g} to {high:g} by more than {MOST_SIGMAS_OUTSIDE} "
+            f"sigmas, {beyond:g}"
+        )
+    return value

@@ -1,1 +1,0 @@
-"""Tables of verdicts: a row for each comparison, and from these a row for each figure."""
