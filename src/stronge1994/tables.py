@@ -137,6 +137,12 @@ def only_curve(table: Table) -> str:
     return str(names[0])
 
 
+def no_curve(table: Table, wanted: Mapping[str, Any]) -> ValueError:
+    """The error that no curve of a table has the wanted values."""
+    asked = ", ".join(f"{column} = {value}" for column, value in wanted.items() if value != "")
+    return ValueError(f"no curve has {asked}; there are: {'; '.join(table['curve'].unique())}")
+
+
 def select(table: Table, **wanted: Any) -> Table:
     """The curves with the wanted values, as for `where`, without the columns that they lack.
 
@@ -152,9 +158,7 @@ def select(table: Table, **wanted: Any) -> Table:
     wanted = {key: "" for key in DEFAULTS if key in table and key not in wanted} | wanted
     found = table[where(table, **wanted)].reset_index(drop=True)
     if found.empty:
-        asked = ", ".join(f"{column} = {value}" for column, value in wanted.items() if value != "")
-        there = "; ".join(table["curve"].unique())
-        raise ValueError(f"no curve has {asked}; there are: {there}")
+        raise no_curve(table, wanted)
     empty = [column for column in found if found[column].isin(["", np.nan]).all()]
     return found.drop(columns=[column for column in empty if column not in KEYS])
 

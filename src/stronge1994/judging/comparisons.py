@@ -155,11 +155,10 @@ class Comparison:
         return chosen, [np.transpose(sigmas) for sigmas in both]
 
     def _sigma(self, axis: Axis, points: Table, which: str) -> Array:
-        size = points[axis.sigma_name] if axis.sigma_name else axis.sigma
-        if not np.all(size):
+        sigmas = axis.sigmas(points)
+        if not np.all(sigmas):
             raise ValueError("a point that is compared has an uncertainty of 0")
-        allowed = getattr(self.allowance, which, 0.0)
-        return np.broadcast_to(np.hypot(size, allowed), len(points))
+        return np.hypot(sigmas, getattr(self.allowance, which, 0.0))
 
     def _window(self, series: Series) -> tuple[float, float]:
         """Where its regime begins and ends on the axis, by the parameters of the source."""

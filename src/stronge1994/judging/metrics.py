@@ -69,7 +69,7 @@ def _distances(
     fixed = {key: "" for key in tables.DEFAULTS if key in curves and key not in series.labels}
     chosen = curves[tables.where(curves, **fixed | comparison.curve)]
     if chosen.empty:
-        tables.select(curves, **fixed | comparison.curve)  # says that there is none
+        raise tables.no_curve(curves, fixed | comparison.curve)
     labels = [key for key in series.labels if key in chosen and key not in comparison.curve]
     # A label such as the number of a run is no choice among curves that do not have it.
     empty = [key for key in labels if chosen[key].isin(["", np.nan]).all()]
@@ -85,7 +85,7 @@ def _distances(
     for values, at in _rows_by_labels(points, labels).items():
         wanted = dict(zip(labels, values, strict=True))
         if values not in rows_of:
-            tables.select(curves, **fixed | wanted | comparison.curve)  # says that there is none
+            raise tables.no_curve(curves, fixed | wanted | comparison.curve)
         of = tables.only_curve(chosen.take(rows_of[values]))
         for (_, y), places, lines, sigma in zip(pairs, of_points, of_curves, sigmas, strict=True):
             line = lines[rows_of[values]]

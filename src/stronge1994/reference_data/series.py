@@ -12,6 +12,7 @@ import pandas as pd
 from pydantic.dataclasses import dataclass
 
 from planarimpact.common import csv_text
+from planarimpact.common.arrays import Array
 from stronge1994.tables import Table
 
 # Kinds of series that hold points of nature: published ones, or measured by their owner.
@@ -53,6 +54,15 @@ class Axis:
         if not isinstance(self.sigma, str):
             return None
         return Axis(self.sigma, self.unit, 0.0, self.range).name
+
+    def sigmas(self, points: Table) -> Array:
+        """The uncertainty of each of some points of its series.
+
+        >>> Axis("angle", "deg", 0.5, (0, 90)).sigmas(pd.DataFrame({"angle [deg]": [30.0, 60.0]}))
+        array([0.5, 0.5])
+        """
+        size = points[self.sigma_name] if self.sigma_name else self.sigma
+        return np.broadcast_to(np.asarray(size, float), len(points))
 
 
 @dataclass(frozen=True)

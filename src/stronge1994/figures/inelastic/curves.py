@@ -17,7 +17,7 @@ from planarimpact.common import sliding
 from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.common.results import Rebound
 from stronge1994 import tables
-from stronge1994.figures.inelastic.trials import WHOLE
+from stronge1994.figures.inelastic.trials import BETA_0, WHOLE, E
 from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.figures.shared.curves.sampling import vertices
 from stronge1994.names import MODELS
@@ -28,7 +28,6 @@ TRIAL_SLOPES = np.linspace(-1.0, 1.0, 201)
 # Number of impacts in a fit, so large that beta_0 does not depend on it.
 FIT_SIZE = 2000
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
-E, BETA_0 = "restitution [1]", "tangential_restitution [1]"
 PROPERTIES = "young_modulus", "poisson_ratio"  # of a material; before each stands its name
 
 

@@ -5,11 +5,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from planarimpact.common.arrays import Booleans
-from stronge1994 import names, tables
+from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style, model_lines
 from stronge1994.figures.shared.drawing.house_style import Points, Scatter, Settings
 from stronge1994.figures.shared.drawing.model_lines import POINT, STYLES
-from stronge1994.names import ELASTIC_IN_SHEAR
 from stronge1994.tables import Table
 
 X, W, E = "incidence [mu v2(0)]", "velocity [mu v2(0)]", "restitution [1]"
@@ -17,7 +16,6 @@ APPROACH, SHARE = "approach [delta_max]", "share_of_elastic_force [1]"
 SPHERES, PUSHED = "finite_elements/spheres", "finite_elements/pushed"
 # Sets of runs that differ by restitution alone.
 SETS = ("calibration", "other restitutions")
-MODELS = (*names.MODELS, ELASTIC_IN_SHEAR)
 
 
 def draw(curves: Table, settings: Settings, points: Points) -> Figure:
@@ -42,7 +40,8 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     pushed.set(xlim=(0, 1), ylim=(0, 1.1), title="(c) pushed sideways while it yields")
     _draw_distances(by_restitution, curves, runs.columns)
     by_restitution.axhline(runs.sigma[1][0], **house_style.GUIDE)
-    keys = [house_style.key(**STYLES[model]) for model in MODELS]
+    models = tables.select(curves, variant="runs")["model"].unique()
+    keys = [house_style.key(**STYLES[model]) for model in models]
     house_style.legend_below(figure, keys[:3], [*keys[3:], measured])
     return figure
 
@@ -59,8 +58,7 @@ def _draw_distances(axes: Axes, curves: Table, runs: Table) -> None:
     whole = alike.filter(lambda own: len(own) == alike.size().max())
     contacts = whole["contact"]
     e = whole[E].groupby(contacts).mean().sort_values()
-    for model in MODELS:
-        own = tables.select(curves, model=model, variant="runs")
+    for model, own in tables.each(curves, "model", variant="runs"):
         squares = np.square(own[W] - runs[W])[whole.index]
         rms = np.sqrt(squares.groupby(contacts).mean()[e.index])
         axes.plot(e.to_numpy(), rms.to_numpy(), **STYLES[model])

@@ -7,7 +7,6 @@ import importlib
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from stronge1994 import tables
@@ -49,17 +48,13 @@ def references(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
 
 
 def _scatter(series: Series) -> Scatter:
-    points, (x, y) = series.points(), (series.x, series.ordinates[0])
-    sigma_x, sigma_y = (
-        np.broadcast_to(points[axis.sigma_name] if axis.sigma_name else axis.sigma, len(points))
-        for axis in (x, y)
-    )
+    points, x, y = series.points(), series.x, series.ordinates[0]
     return Scatter(
         series.name,
         series.is_published,
         points[x.name].to_numpy(),
         points[y.name].to_numpy(),
-        (sigma_x, sigma_y),
+        (x.sigmas(points), y.sigmas(points)),
         (x.name, y.name),
         points,
         series.parameters,
