@@ -1,201 +1,167 @@
-"""The verdicts of a run in one table: a row for each figure, a cell for each question.
+"""The table for a reader: of each figure of the paper what agrees with what, and what does not.
 
-Solved right: our second codes and laws, which say nothing about nature. As printed: what the paper
-states. Beside others: measurements, other codes and other authors. There only the paper's model is
-told; the table of all comparisons has the other models.
+It has what the paper states, and what others measured or computed, of these only beside the paper's
+model. The checks of our solver, and the figures beyond the paper, have a line each.
 """
 
-import itertools
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from stronge1994.names import SCENE, is_of_paper
+from stronge1994 import words
+from stronge1994.names import is_of_paper
 from stronge1994.tables import Row, Table
-from stronge1994.verdict_table import COLUMNS, LEDGER, Question, Verdict
+from stronge1994.verdict_table import COLUMNS, Group, Verdict, Why
 
-SCENES = "scenes"  # one row for all tables of impacts
 # The paper's model, in curves that are selected by their model.
 MODELS_OF_PAPER = ("", "lumped", "lumped.hysteretic")
-LEAST_SHARE = 1e-3  # of a sigma: less is shown as 0
-# Widths of the columns in a terminal of 80. Names of the paper's figures are shorter than others.
-PAPER_WIDTHS, OTHER_WIDTHS = (6, 11, 23, 37), (13, 11, 16, 37)
-HEADER = """\
-figure solved right as printed              beside others: number of points,
-       axis  sigma what differs: how much  rms [axis], rms [sigma], verdict"""
+NUMBERS = ("points", "rms", "max")
+WIDTH, INDENT = 80, " " * 14  # of a terminal
+PRINTED = "printed curve"  # which no run has compared
+PLURAL = {
+    Verdict.FAILS: "FAIL",
+    Verdict.AGREES: "agree",
+    Verdict.DIFFERS: "differ",
+    Verdict.CANNOT_TELL: "cannot tell",
+    Verdict.NOT_COMPARED: "not compared",
+}
 
 
 class Item(NamedTuple):
-    """A part of a cell: what it says, and the comparisons that say it.
+    """What some comparisons with one source say together.
 
-    The worst comparison stands first. `name` is a source or an entry of the ledger; `size` says how
-    large a difference is, in `unit` or as two numbers. `points` are those of a source; of other
-    items it counts the comparisons.
+    The worst comparison stands first in `rows`, and gives `verdict` and `why`. `name` is that of
+    the source, empty for the paper; `size` is in words.
     """
 
     rows: list[str]
     verdict: str
-    name: str = ""
-    points: str = ""
-    size: str = ""
-    unit: str = ""
-    sigmas: str = ""
+    why: str
+    entry: str
+    name: str
+    says: str
+    size: str
+
+    @property
+    def text(self) -> str:
+        """What it says, without its source and why it differs."""
+        return f"{self.says} {self.size}".strip()
 
 
 class FigureRow(NamedTuple):
-    """The verdicts on one figure, by question; `others` of the paper's model only."""
+    """What a figure shows, and all that it is compared with but our own checks."""
 
     figure: str
-    solved: list[Item]
-    printed: list[Item]
+    shows: str
+    paper: list[Item]
     others: list[Item]
-    awaited: list[Item]
 
 
-def of_run(rows: Sequence[Row]) -> list[FigureRow]:
-    """A row for each figure of the verdict table `rows`, in their order; one for all scenes.
-
-    >>> row = {"figure": "fig6", "comparison": "fig6-rebound", "question": "solved right"}
-    >>> row |= {"verdict": "right", "reference": "lumped_40_digits/fig6", "unit": "m"}
-    >>> row |= {"max [sigma]": "0.4", "max [axis units]": "4e-13"}
-    >>> of_run([row])[0].solved[0].size
-    '4e-13'
-    """
+def of_run(rows: Sequence[Row], shows: Mapping[str, str]) -> list[FigureRow]:
+    """A row for each figure that `shows` names, from the rows of the verdict table."""
     table = pd.DataFrame([dict.fromkeys(COLUMNS, "") | row for row in rows], columns=COLUMNS)
-    numbers = [column for column in COLUMNS if column == "points" or column[-1] == "]"]
-    table[numbers] = table[numbers].apply(pd.to_numeric)
-    verdicts = [Verdict(verdict) for verdict in table["verdict"]]
-    severity = [list(Verdict).index(verdict) for verdict in verdicts]
-    table = table.assign(severity=severity, fails=[verdict.fails for verdict in verdicts])
-    table["source"] = table["reference"].str.split("/").str[0]
-    names = table["figure"].where(~table["figure"].str.startswith(SCENE), SCENES)
-    return [_figure_row(name, own) for name, own in table.groupby(names, sort=False)]
+    for column in NUMBERS:
+        table[column] = pd.to_numeric(table[column])
+    severity = [list(Verdict).index(Verdict(verdict)) for verdict in table["verdict"]]
+    table = table.assign(severity=severity, source=table["reference"].str.split("/").str[0])
+    by_figure = {name: table[table["figure"] == name] for name in shows}
+    return [_figure_row(name, shows[name], own) for name, own in by_figure.items()]
 
 
-def _figure_row(name: str, rows: Table) -> FigureRow:
-    solved, printed, others = (rows[rows["question"] == question] for question in Question)
-    shown = others[others["fails"] | others["model"].isin(MODELS_OF_PAPER)]
-    awaited = shown["verdict"] == Verdict.AWAITED
-    present, later = (
-        [_source(source, own) for source, own in part.groupby("source", sort=False)]
-        for part in (shown[~awaited], shown[awaited])
-    )
-    return FigureRow(name, list(_solved(solved)), list(_printed(printed)), present, later)
+def _figure_row(name: str, shows: str, rows: Table) -> FigureRow:
+    paper, others = (rows[rows["group"] == group] for group in (Group.PAPER, Group.OTHERS))
+    shown = others["model"].isin(MODELS_OF_PAPER) | (others["verdict"] == Verdict.FAILS)
+    return FigureRow(name, shows, list(_items(paper)), list(_items(others[shown])))
 
 
-def _item(rows: Table, verdict: str = "", name: str = "", **cells: str) -> Item:
-    """An item of some comparisons, with the worst verdict unless another one is given."""
-    worst_first = rows.sort_values("severity", kind="stable")
-    own = verdict or worst_first["verdict"].iloc[0]
-    return Item(worst_first["comparison"].tolist(), own, name, **cells)
-
-
-def _solved(rows: Table) -> Iterator[Item]:
-    """What is wrong, else what is right with its largest differences; and what is known to differ.
-
-    The difference in sigmas is that from second codes: 1 is all that is allowed.
-    """
-    wrong, right = rows[rows["fails"]], rows[rows["verdict"] == Verdict.RIGHT]
-    known = rows[[Verdict(verdict).differs for verdict in rows["verdict"]]]
-    if len(wrong):
-        yield _item(wrong, Verdict.WRONG, points=f"{len(wrong)}")
-    elif len(right):
-        # A table with axes of several units has no difference in the unit of the axis.
-        size = right["max [axis units]"][right["unit"] != ""].max()
-        share = right["max [sigma]"][right["reference"] != ""].max()
-        yield _item(
-            right,
-            points=f"{len(right)}",
-            size="" if np.isnan(size) else f"{size:.0e}" if size else "0",
-            sigmas="" if np.isnan(share) else f"{share:.1g}" if share > LEAST_SHARE else "0",
+def _items(rows: Table) -> Iterator[Item]:
+    """Comparisons that say the same of one source are one item; of the paper, all of one entry."""
+    for (source, says), own in rows.groupby(["source", "says"], sort=False):
+        first = own.sort_values("severity", kind="stable").iloc[0]
+        of_paper = first["group"] == Group.PAPER
+        yield Item(
+            own.sort_values("severity", kind="stable")["comparison"].tolist(),
+            first["verdict"],
+            first["why"],
+            first["entry"],
+            "" if of_paper else words.source(source),
+            says,
+            _size(own, of_paper),
         )
-    if len(known):
-        yield _item(known, "known difference", points=f"{len(known)}")
 
 
-def _printed(rows: Table) -> Iterator[Item]:
-    """How many statements agree; then each difference, by entry of the ledger."""
-    agree = rows["verdict"] == Verdict.AGREES
-    if agree.any():
-        yield _item(rows[agree], points=f"{agree.sum()}")
-    differ = rows[~agree]
-    causes = pd.Series([_cause(row) for row in differ.to_dict("records")], differ.index, str)
-    for name, own in differ.groupby(causes, sort=False):
-        first = own.iloc[0]
-        size = ""  # of a figure that could not be solved
-        if first["found"]:
-            size = f"{first['found']}, not {first['stated']}".removesuffix(f" {first['unit']}")
-        elif own["points"].notna().all():
-            size = f"rms {_rms(own, 'axis units')}"
-        yield _item(own, name=name, size=size, unit=first["unit"])
-
-
-def _cause(row: Row) -> str:
-    """Entry of the ledger or note of a known difference; of a row that fails without, its name."""
-    note = row["note"].partition(";")[0]
-    if row["fails"] and not note.startswith(LEDGER):
-        return row["comparison"].removeprefix(f"{row['figure']}-")
-    return note.removeprefix(LEDGER)
-
-
-def _source(source: str, rows: Table) -> Item:
-    """All comparisons with one source; the size is that of its first series."""
-    measured = rows.dropna(subset=["points"])
-    if measured.empty:
-        return _item(rows, name=source)
-    points = f"{measured['points'].sum():.0f}"
-    if not measured["rms [sigma]"].any():  # an inequality that holds has no distance
-        return _item(rows, name=source, points=points)
-    first = measured[measured["reference"] == measured["reference"].iloc[0]]
-    size, unit = _rms(first, "axis units"), first["unit"].iloc[0]
-    return _item(
-        rows, "", source, points=points, size=size, unit=unit, sigmas=_rms(measured, "sigma")
-    )
-
-
-def _rms(rows: Table, unit: str) -> str:
-    """Root mean square distance of all points of several rows."""
-    return f"{np.sqrt(np.average(rows[f'rms [{unit}]'] ** 2, weights=rows['points'])):.2g}"
+def _size(rows: Table, of_paper: bool) -> str:
+    """What was stated and found; of points how many, of which series, and how far they are off."""
+    first = rows.iloc[0]
+    if first["stated"]:
+        stated, found = (" and ".join(rows[column]) for column in ("stated", "found"))
+        is_met = stated[0] in "<>"  # an inequality has no size
+        return "" if is_met else f"{stated}; ours {found}"
+    compared = rows.dropna(subset=["points"])
+    if compared.empty:
+        return ""
+    unit = "" if first["unit"] == "1" else f" {first['unit']}"
+    if of_paper:
+        return f"off by up to {compared['max'].max():.2g}{unit}"
+    # Series of one source may have other units: the first one is told.
+    name = compared["reference"].iloc[0]
+    series = compared[compared["reference"] == name]
+    rms = np.sqrt(np.average(series["rms"] ** 2, weights=series["points"]))
+    more = compared["reference"].nunique() - 1
+    others = f", and {more} more series" if more else ""
+    what = f"{words.of_identifier(name.split('/')[1])}, {series['points'].sum():.0f} points"
+    return f"{what}, rms {rms:.2g}{unit}{others}"
 
 
 def text(table: Sequence[FigureRow]) -> str:
     """The table for a terminal of 80 columns."""
-    lines = [HEADER]
+    lines = []
     for row in table:
-        widths = PAPER_WIDTHS if is_of_paper(row.figure) else OTHER_WIDTHS
-        cells = [
-            [row.figure],
-            [_solved_words(item) for item in row.solved],
-            [_printed_words(item) for item in row.printed],
-            [*map(_source_words, row.others), *(f"awaited: {i.name}" for i in row.awaited)],
-        ]
-        wrapped = [
-            [line for part in cell for line in textwrap.wrap(part, width)] or ["-"]
-            for cell, width in zip(cells, widths, strict=True)
-        ]
-        for line in itertools.zip_longest(*wrapped, fillvalue=""):
-            parts = [part.ljust(width) for part, width in zip(line, widths, strict=True)]
-            lines.append(" ".join(parts).rstrip())
+        items = [*row.paper, *row.others]
+        later = [item.name for item in items if item.verdict == Verdict.NOT_COMPARED]
+        missing = ", ".join(dict.fromkeys([PRINTED, *later]))
+        head = f"{words.figure(row.figure)}  {row.shows}; not compared: {missing}"
+        lines += textwrap.wrap(head, WIDTH, subsequent_indent=INDENT)
+        for item in items:
+            if item.verdict != Verdict.NOT_COMPARED:
+                told = f" {item.verdict:<12} {who(item)}: {sentence(item)}"
+                lines += textwrap.wrap(told, WIDTH, subsequent_indent=INDENT)
     return "\n".join(lines)
 
 
-def _solved_words(item: Item) -> str:
-    if item.verdict == Verdict.RIGHT:
-        return f"{item.size or '':5} {item.sigmas}".rstrip() or "right"
-    return f"{item.points} WRONG" if item.verdict == Verdict.WRONG else f"{item.points} known"
+def who(item: Item) -> str:
+    """Whose statement or data an item is; where the paper is wrong, that it is."""
+    return item.name or ("paper wrong" if item.why == Why.KNOWN else "paper")
 
 
-def _printed_words(item: Item) -> str:
-    if item.verdict == "agrees":
-        return f"{item.points} agree" + ("s" if item.points == "1" else "")
-    mark = "DIVERGES " if Verdict(item.verdict).fails else ""
-    return f"{mark}{item.name}" + (f": {item.size}" if item.size else "")
+def sentence(item: Item) -> str:
+    """What an item says, and what is known of a difference from others."""
+    return f"{item.text}; {item.why}" if item.why and "wrong" not in who(item) else item.text
 
 
-def _source_words(item: Item) -> str:
-    verdict = item.verdict.upper() if Verdict(item.verdict).fails else item.verdict
-    numbers = [item.points, item.size, item.sigmas, verdict.removesuffix(" difference")]
-    return " ".join([item.name, *(part for part in numbers if part)])
+def of_solver(rows: Sequence[Row]) -> str:
+    """How the checks of our solver went, in one line."""
+    counts = Counter(row["verdict"] for row in rows if row["group"] == Group.SOLVER)
+    parts = [
+        f"{counts[verdict]} {word}"
+        for verdict, word in (
+            (Verdict.FAILS, "FAIL"),
+            (Verdict.PASSED, "passed"),
+            (Verdict.DIFFERS, "differ as known"),
+            (Verdict.NOT_COMPARED, "not made"),
+        )
+        if counts[verdict]
+    ]
+    return f"Solver checked by our own second codes and laws: {', '.join(parts)}" if parts else ""
+
+
+def beyond(rows: Sequence[Row]) -> str:
+    """What the comparisons with others say in figures beyond the paper, in one line."""
+    own = [r for r in rows if not is_of_paper(r["figure"]) and r["group"] != Group.SOLVER]
+    counts = Counter(row["verdict"] for row in own)
+    parts = [f"{counts[verdict]} {PLURAL[verdict]}" for verdict in PLURAL if counts[verdict]]
+    return f"Figures beyond the paper, with others: {', '.join(parts)}" if parts else ""

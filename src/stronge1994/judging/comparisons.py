@@ -12,7 +12,7 @@ from planarimpact.common.arrays import Array
 from stronge1994 import reference_data, tables
 from stronge1994.reference_data import Axis, Fact, Series
 from stronge1994.tables import Table
-from stronge1994.verdict_table import Question, Verdict
+from stronge1994.verdict_table import Group, Why
 
 PAPER = "stronge1994"  # the source that has what the paper states
 
@@ -54,16 +54,11 @@ class Landmark:
 
 @dataclass(frozen=True)
 class KnownDifference:
-    """What is known of a documented difference, and its cause: an entry of the ledger or a note."""
+    """What is known of a difference, and its cause: an entry of the ledger or a note."""
 
-    kind: str
+    why: Why
     entry: str = ""
     note: str = ""
-
-    @property
-    def verdict(self) -> Verdict:
-        """Verdict of a comparison with this difference."""
-        return Verdict(f"{self.kind} difference")
 
 
 @dataclass(frozen=True)
@@ -80,13 +75,15 @@ class Comparison:
 
     `curve` selects curves by their columns, see `tables.select`; empty, each point of the reference
     selects its own by its labels. Of the reference are compared only the points with these labels,
-    `points`, in the `regime`. A known difference has bounds of regression, which are `rms`, `max`,
-    `chi2` or `difference` about what was found, and say nothing on what is right.
+    `points`, in the `regime`. `says` is what the reference says, for readers. A known difference
+    has `bounds` about what was found, of its `rms`, `max` or `difference` in the unit of the axis.
+    They guard against changes, and say nothing on what is right.
     """
 
     name: str
     metric: Metric
     reason: str
+    says: str = ""
     reference: Series | Fact | None = None
     curve: dict[str, Any] = field(default_factory=dict)
     points: dict[str, Any] = field(default_factory=dict)
@@ -96,9 +93,8 @@ class Comparison:
     columns: list[str] = field(default_factory=list)
     range: tuple[float, float] | None = None
     limit: float = 1.0
-    fitted: bool = False
-    documented: KnownDifference | None = None
-    regression: dict[str, tuple[float, float]] = field(default_factory=dict)
+    differs: KnownDifference | None = None
+    bounds: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -107,15 +103,13 @@ class Comparison:
         """A comparison from its entry in figure.yaml, and from source.yaml `{source/name: entry}`.
 
         >>> law = {"metric": "small", "columns": ["x [1]"], "reason": "a law"}
-        >>> Comparison.of("a", law, {}).question.value
-        'solved right'
+        >>> Comparison.of("a", law, {}).group.value
+        'solver checked'
         """
         own = {**entry, "name": name}
         if "reference" in entry:
             full = entry["reference"]
             own["reference"] = reference_data.of(full, references[full])
-        if "documented" in entry:
-            own["documented"] = {"kind": entry["documented"]["as"], **entry["documented"]}
         return cls(**own)
 
     @property
@@ -124,20 +118,40 @@ class Comparison:
         return isinstance(self.reference, Series) and self.reference.is_published
 
     @property
-    def question(self) -> Question:
-        """Which question it answers.
+    def group(self) -> Group:
+        """With what it compares.
 
-        OTHERS: points of nature, and what other codes compute and others state. PRINTED: what the
+        OTHERS: points of nature, and what other codes compute and others state. PAPER: what the
         paper states, and a difference that is an entry of the ledger. All else, our second codes
-        and laws, asks only whether our curve is SOLVED right.
+        and laws, only checks our SOLVER.
         """
-        known, reference = self.documented, self.reference
+        known, reference = self.differs, self.reference
         if isinstance(reference, Fact):
             by_paper = reference.name.split("/")[0] == PAPER
-            return Question.PRINTED if by_paper else Question.OTHERS
+            return Group.PAPER if by_paper else Group.OTHERS
         if reference is not None and (reference.is_published or reference.others):
-            return Question.OTHERS
-        return Question.PRINTED if known and known.entry else Question.SOLVED
+            return Group.OTHERS
+        return Group.PAPER if known and known.entry else Group.SOLVER
+
+    def other_settings(self, run: Mapping[str, Any]) -> str:
+        """In which settings its reference and the run differ, in words; empty if in none.
+
+        The reference may be for one value among several of the run.
+
+        >>> fact = Fact("a/b", "1", settings={"friction": 0.5, "speed": {"first": 2}})
+        >>> own = Comparison("a", Metric.LANDMARK, "so", reference=fact)
+        >>> own.other_settings({"friction": [0.5, 1.0], "speed": {"first": 3}})
+        'speed.first 2, this run has 3'
+        """
+        wanted = _leaves(self.reference.settings) if self.reference else {}
+        there = _leaves(run)
+        return "; ".join(
+            f"{key} {_in_words(value)}, this run has {_in_words(there[key])}"
+            for key, value in wanted.items()
+            if key in there
+            and value != there[key]
+            and not (isinstance(there[key], list) and value in there[key])
+        )
 
     def selected_points(self, series: Series) -> tuple[Table, list[Array]]:
         """The points of its reference that are compared, and for each y axis their sigmas.
@@ -172,6 +186,19 @@ class Comparison:
         ends = [-np.inf, *limits, np.inf]
         place = list(Regime).index(self.regime)
         return ends[place], ends[place + 1]
+
+
+def _leaves(settings: Mapping[str, Any], group: str = "") -> dict[str, Any]:
+    """Settings by their names, those of a group behind its name and a dot."""
+    found: dict[str, Any] = {}
+    for key, value in settings.items():
+        own = f"{group}{key}"
+        found |= _leaves(value, f"{own}.") if isinstance(value, Mapping) else {own: value}
+    return found
+
+
+def _in_words(value: Any) -> str:
+    return ", ".join(map(str, value)) if isinstance(value, list) else f"{value}"
 
 
 def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:
