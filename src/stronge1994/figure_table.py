@@ -6,7 +6,7 @@ model. The checks of our solver, and the figures beyond the paper, have a line e
 
 import textwrap
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -22,13 +22,6 @@ MODELS_OF_PAPER = ("", "lumped", "lumped.hysteretic")
 NUMBERS = ("points", "rms", "max")
 WIDTH, INDENT = 80, " " * 14  # of a terminal
 PRINTED = "printed curve"  # which no run has compared
-PLURAL = {
-    Verdict.FAILS: "FAIL",
-    Verdict.AGREES: "agree",
-    Verdict.DIFFERS: "differ",
-    Verdict.CANNOT_TELL: "cannot tell",
-    Verdict.NOT_COMPARED: "not compared",
-}
 
 
 class Item(NamedTuple):
@@ -143,25 +136,29 @@ def sentence(item: Item) -> str:
     return f"{item.text}; {item.why}" if item.why and "wrong" not in who(item) else item.text
 
 
-def of_solver(rows: Sequence[Row]) -> str:
+def of_solver(rows: Iterable[Row]) -> str:
     """How the checks of our solver went, in one line."""
-    counts = Counter(row["verdict"] for row in rows if row["group"] == Group.SOLVER)
-    parts = [
-        f"{counts[verdict]} {word}"
-        for verdict, word in (
-            (Verdict.FAILS, "FAIL"),
-            (Verdict.PASSED, "passed"),
-            (Verdict.DIFFERS, "differ as known"),
-            (Verdict.NOT_COMPARED, "not made"),
-        )
-        if counts[verdict]
-    ]
-    return f"Solver checked by our own second codes and laws: {', '.join(parts)}" if parts else ""
+    words = counted(rows, solver=True)
+    return f"Solver checked by our own second codes and laws: {words}" if words else ""
 
 
-def beyond(rows: Sequence[Row]) -> str:
+def beyond(rows: Iterable[Row]) -> str:
     """What the comparisons with others say in figures beyond the paper, in one line."""
-    own = [r for r in rows if not is_of_paper(r["figure"]) and r["group"] != Group.SOLVER]
-    counts = Counter(row["verdict"] for row in own)
-    parts = [f"{counts[verdict]} {PLURAL[verdict]}" for verdict in PLURAL if counts[verdict]]
-    return f"Figures beyond the paper, with others: {', '.join(parts)}" if parts else ""
+    words = counted(row for row in rows if not is_of_paper(row["figure"]))
+    return f"Figures beyond the paper, with others: {words}" if words else ""
+
+
+def counted(rows: Iterable[Row], solver: bool = False) -> str:
+    """How many rows have each verdict: of the checks of our solver, or of all others.
+
+    >>> counted([{"group": "paper", "verdict": "agrees"}])
+    '1 agrees'
+    """
+    counts = Counter(row["verdict"] for row in rows if (row["group"] == Group.SOLVER) is solver)
+    known = "differ as known" if solver else "differ"
+    plural = {Verdict.AGREES: "agree", Verdict.DIFFERS: known, Verdict.FAILS: "FAIL"}
+    return ", ".join(
+        f"{counts[verdict]} {verdict if counts[verdict] == 1 else plural.get(verdict, verdict)}"
+        for verdict in Verdict
+        if counts[verdict]
+    )

@@ -6,11 +6,12 @@ from enum import StrEnum
 from stronge1994 import tables
 from stronge1994.tables import Row
 
+# Texts that may hold a comma stand last.
 COLUMNS = [
-    "figure", "comparison", "group", "verdict", "why", "entry", "note", "says", "reference",
-    "curve", "model", "points", "column", "rms", "max", "unit", "rms [sigma]", "max [sigma]",
-    "chi^2", "degrees of freedom", "degrees of sigma", "p", "found", "stated", "allowed", "bounds",
-    "reason",
+    "figure", "comparison", "group", "verdict", "why", "points", "rms", "max", "unit",
+    "chi^2", "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
+    "found", "stated", "column", "entry", "reference", "model",
+    "curve", "says", "allowed", "bounds", "note", "reason",
 ]  # fmt: skip
 
 

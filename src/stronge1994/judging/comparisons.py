@@ -75,9 +75,10 @@ class Comparison:
 
     `curve` selects curves by their columns, see `tables.select`; empty, each point of the reference
     selects its own by its labels. Of the reference are compared only the points with these labels,
-    `points`, in the `regime`. `says` is what the reference says, for readers. A known difference
-    has `bounds` about what was found, of its `rms`, `max` or `difference` in the unit of the axis.
-    They guard against changes, and say nothing on what is right.
+    `points`, in the `regime`. `says` is what the reference says, for readers. A comparison, like a
+    reference, may be for some `settings` of the figure alone. A known difference has `bounds` about
+    what was found, of its `rms`, `max` or `difference` in the unit of the axis. They guard against
+    changes, and say nothing on what is right.
     """
 
     name: str
@@ -93,6 +94,7 @@ class Comparison:
     columns: list[str] = field(default_factory=list)
     range: tuple[float, float] | None = None
     limit: float = 1.0
+    settings: dict[str, Any] = field(default_factory=dict)
     differs: KnownDifference | None = None
     bounds: dict[str, tuple[float, float]] = field(default_factory=dict)
 
@@ -134,17 +136,17 @@ class Comparison:
         return Group.PAPER if known and known.entry else Group.SOLVER
 
     def other_settings(self, run: Mapping[str, Any]) -> str:
-        """In which settings its reference and the run differ, in words; empty if in none.
+        """For which settings it is, and which the run has, in words; empty if they are the same.
 
-        The reference may be for one value among several of the run.
+        It may be for one value among several of the run.
 
         >>> fact = Fact("a/b", "1", settings={"friction": 0.5, "speed": {"first": 2}})
         >>> own = Comparison("a", Metric.LANDMARK, "so", reference=fact)
         >>> own.other_settings({"friction": [0.5, 1.0], "speed": {"first": 3}})
         'speed.first 2, this run has 3'
         """
-        wanted = _leaves(self.reference.settings) if self.reference else {}
-        there = _leaves(run)
+        of_reference = self.reference.settings if self.reference else {}
+        wanted, there = _leaves({**of_reference, **self.settings}), _leaves(run)
         return "; ".join(
             f"{key} {_in_words(value)}, this run has {_in_words(there[key])}"
             for key, value in wanted.items()

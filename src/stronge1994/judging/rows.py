@@ -76,7 +76,8 @@ def _row(
     if isinstance(reference, Series) and reference.kind == "awaited":
         return cells | none | {"why": Why.AWAITED, "note": reference.figure}
     if others := comparison.other_settings(settings):
-        return cells | none | {"why": Why.SETTINGS, "note": f"the reference is for {others}"}
+        what = "reference" if reference else "law"
+        return cells | none | {"why": Why.SETTINGS, "note": f"the {what} is for {others}"}
     if known:
         cells |= {"entry": known.entry, "note": plain(known.note)}
     try:

@@ -6,7 +6,6 @@ Nothing is solved here.
 import io
 import re
 import shutil
-from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -122,21 +121,9 @@ def parts(rows: Sequence[Row]) -> TemplateValues:
     first = [row for verdict in FIRST for row in rows if row["verdict"] == verdict]
     first = [row for row in first if stands_first(row)]
     rest = [row for row in rows if row not in first]
-    own = [row for row in rest if row["group"] == Group.SOLVER]
-    counts = [
-        (Counter(row["verdict"] for row in part), words)
-        for part, words in (
-            ([row for row in rest if row not in own], ""),
-            (own, "solver checked: "),
-        )
-    ]
-    return {
-        "first": first,
-        "rest": rest,
-        "counts": [
-            f"{words}{n} {verdict}" for part, words in counts for verdict, n in part.items()
-        ],
-    }
+    with_others, own = figure_table.counted(rest), figure_table.counted(rest, solver=True)
+    counts = [with_others, f"solver checked: {own}" if own else ""]
+    return {"first": first, "rest": rest, "counts": "; ".join(filter(None, counts))}
 
 
 def _svg(strips: list[tables.Table]) -> bytes:
