@@ -5,7 +5,6 @@ model. The checks of our solver, and the figures beyond the paper, have a line e
 """
 
 import textwrap
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -28,13 +27,14 @@ class Item(NamedTuple):
     """What some comparisons with one source say together.
 
     The worst comparison stands first in `rows`, and gives `verdict` and `why`. `name` is that of
-    the source, empty for the paper; `size` is in words.
+    the source, empty for the paper, and `paper` says whether that is wrong. `size` is in words.
     """
 
     rows: list[str]
     verdict: str
     why: str
     entry: str
+    paper: str
     name: str
     says: str
     size: str
@@ -43,6 +43,11 @@ class Item(NamedTuple):
     def text(self) -> str:
         """What it says, without its source and why it differs."""
         return f"{self.says} {self.size}".strip()
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why it differs or is not compared; a known cause goes with a paper that is wrong."""
+        return [self.why] if self.why and not (self.paper and self.why == Why.KNOWN) else []
 
 
 class FigureRow(NamedTuple):
@@ -81,6 +86,7 @@ def _items(rows: Table) -> Iterator[Item]:
             first["verdict"],
             first["why"],
             first["entry"],
+            first["paper"],
             "" if of_paper else words.source(source),
             says,
             _size(own, of_paper),
@@ -121,44 +127,42 @@ def text(table: Sequence[FigureRow]) -> str:
         lines += textwrap.wrap(head, WIDTH, subsequent_indent=INDENT)
         for item in items:
             if item.verdict != Verdict.NOT_COMPARED:
-                told = f" {item.verdict:<12} {who(item)}: {sentence(item)}"
+                who = item.name or f"paper {item.paper}".rstrip()
+                told = f" {item.verdict:<12} {who}: {'; '.join([item.text, *item.reasons])}"
                 lines += textwrap.wrap(told, WIDTH, subsequent_indent=INDENT)
     return "\n".join(lines)
-
-
-def who(item: Item) -> str:
-    """Whose statement or data an item is; where the paper is wrong, that it is."""
-    return item.name or ("paper wrong" if item.why == Why.KNOWN else "paper")
-
-
-def sentence(item: Item) -> str:
-    """What an item says, and what is known of a difference from others."""
-    return f"{item.text}; {item.why}" if item.why and "wrong" not in who(item) else item.text
 
 
 def of_solver(rows: Iterable[Row]) -> str:
     """How the checks of our solver went, in one line."""
     words = counted(rows, solver=True)
-    return f"Solver checked by our own second codes and laws: {words}" if words else ""
+    return f"Solver checked by our codes and laws: {words}" if words else ""
 
 
 def beyond(rows: Iterable[Row]) -> str:
     """What the comparisons with others say in figures beyond the paper, in one line."""
     words = counted(row for row in rows if not is_of_paper(row["figure"]))
-    return f"Figures beyond the paper, with others: {words}" if words else ""
+    return f"Beyond the paper, with others: {words}" if words else ""
 
 
 def counted(rows: Iterable[Row], solver: bool = False) -> str:
     """How many rows have each verdict: of the checks of our solver, or of all others.
 
-    >>> counted([{"group": "paper", "verdict": "agrees"}])
-    '1 agrees'
+    Those that differ have their figures behind them.
+
+    >>> counted([{"group": "paper", "verdict": "differs", "figure": "fig6"}])
+    '1 differs (fig6)'
     """
-    counts = Counter(row["verdict"] for row in rows if (row["group"] == Group.SOLVER) is solver)
+    figures: dict[str, list[str]] = {verdict: [] for verdict in Verdict}
+    for row in rows:
+        if (row["group"] == Group.SOLVER) is solver:
+            figures[row["verdict"]].append(row["figure"])
     known = "differ as known" if solver else "differ"
-    plural = {Verdict.AGREES: "agree", Verdict.DIFFERS: known, Verdict.FAILS: "FAIL"}
-    return ", ".join(
-        f"{counts[verdict]} {verdict if counts[verdict] == 1 else plural.get(verdict, verdict)}"
-        for verdict in Verdict
-        if counts[verdict]
-    )
+    plural: dict[str, str] = {Verdict.AGREES: "agree", Verdict.DIFFERS: known, Verdict.FAILS: "FAIL"}
+    parts = [
+        f"{len(own)} {verdict if len(own) == 1 else plural.get(verdict, verdict)}"
+        + (f" ({', '.join(dict.fromkeys(own))})" if verdict == Verdict.DIFFERS else "")
+        for verdict, own in figures.items()
+        if own
+    ]
+    return ", ".join(reversed(parts))

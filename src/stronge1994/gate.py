@@ -13,6 +13,8 @@ LEDGER = "results/ledger.csv"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 PASSED = """\
 PASSED: nothing has changed, and {} checks hold. Printed curves: not compared.
+A run fails if a curve leaves its tolerance, a known difference its bounds, or if
+a verdict on the paper no longer holds. It differs, as told above, and passes.
 Look:    figures/report.html in a browser: the table above, with reasons
 Play:    figures/explorer.html
 Tables:  results/verdicts.csv, results/ledger.csv

@@ -10,7 +10,7 @@ from stronge1994.tables import Row
 COLUMNS = [
     "figure", "comparison", "group", "verdict", "why", "points", "rms", "max", "unit",
     "chi^2", "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
-    "found", "stated", "column", "entry", "reference", "model",
+    "found", "stated", "column", "entry", "paper", "reference", "model",
     "curve", "says", "allowed", "bounds", "note", "reason",
 ]  # fmt: skip
 

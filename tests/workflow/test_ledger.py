@@ -21,7 +21,7 @@ from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
 from stronge1994.printed import dynamics, slip
 from tests.workflow.page import flat
-from tests.workflow.project import ROOT, ledger
+from tests.workflow.project import ROOT, config, ledger
 
 ENTRIES = ledger()
 EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
@@ -394,3 +394,12 @@ def test_numbers_that_an_entry_quotes_are_found_in_another_way(name):
     found = compute()
     found = found if np.isscalar(found) else np.array(list(found))
     assert np.all(np.abs(found - quoted) <= within), found
+
+
+def test_a_figure_calls_the_paper_wrong_or_vague_as_the_ledger_does():
+    for name, entry in config()["comparisons"].items():
+        differs = entry.get("differs", {})
+        if "paper" in differs:
+            judged = ENTRIES[differs["entry"]]
+            is_vague = judged.get("grade") == "matter of judgement"
+            assert (judged["verdict"], differs["paper"] == "vague") == ("wrong", is_vague), name

@@ -258,7 +258,13 @@ def test_the_note_s_farthest_pairs_are_so(numbers, first_run, inventory):
 
 # Rows of verdicts, all of whose cells differ, and what the report tells of them.
 FOUND = {"chi^2": "7", "degrees of freedom": "6", "degrees of sigma": "5", "p": "0.6"}
-KNOWN = {"why": "cause known", "bounds": "1 <= rms <= 2 N", "entry": "eq-25", "says": "Eq. 25,"}
+KNOWN = {
+    "why": "cause known",
+    "bounds": "1 <= rms <= 2 N",
+    "entry": "eq-25",
+    "says": "Eq. 25,",
+    "paper": "wrong",
+}
 SAME = {"curve": "lumped", "allowed": "max <= 1 N", "reason": "it is so"}
 SAME |= {"reference": "maw1976/rebound", "rms [sigma]": "9"}
 CELLS = {

@@ -54,11 +54,15 @@ class Landmark:
 
 @dataclass(frozen=True)
 class KnownDifference:
-    """What is known of a difference, and its cause: an entry of the ledger or a note."""
+    """What is known of a difference, and its cause: an entry of the ledger or a note.
+
+    `paper` says of a statement of the paper whether it is wrong or vague.
+    """
 
     why: Why
     entry: str = ""
     note: str = ""
+    paper: str = ""
 
 
 @dataclass(frozen=True)

@@ -79,7 +79,7 @@ def _row(
         what = "reference" if reference else "law"
         return cells | none | {"why": Why.SETTINGS, "note": f"the {what} is for {others}"}
     if known:
-        cells |= {"entry": known.entry, "note": plain(known.note)}
+        cells |= {"entry": known.entry, "note": plain(known.note), "paper": known.paper}
     try:
         measured = measure(comparison, curves)
         verdict, numbers = _judged(comparison, measured, significance)
