@@ -13,14 +13,23 @@ import pandas as pd
 
 from stronge1994 import words
 from stronge1994.names import is_of_paper
-from stronge1994.tables import Row, Table
-from stronge1994.verdict_table import COLUMNS, Group, Verdict, Why
+from stronge1994.tables import Row, Table, with_unit
+from stronge1994.verdict_table import COLUMNS, Group, Verdict
 
 # The paper's model, in curves that are selected by their model.
 MODELS_OF_PAPER = ("", "lumped", "lumped.hysteretic")
 NUMBERS = ("points", "rms", "max")
 WIDTH, INDENT = 80, " " * 14  # of a terminal
 PRINTED = "printed curve"  # which no run has compared
+# Verdicts in a line that counts them, with words for several, and for checks of our solver.
+COUNTED = {
+    Verdict.FAILS: ("FAIL", "FAIL"),
+    Verdict.PASSED: ("passed", "passed"),
+    Verdict.AGREES: ("agree", "agree"),
+    Verdict.CANNOT_TELL: ("cannot tell", "cannot tell"),
+    Verdict.NOT_COMPARED: ("not compared", "not compared"),
+    Verdict.DIFFERS: ("differ", "differ as known"),
+}
 
 
 class Item(NamedTuple):
@@ -45,9 +54,9 @@ class Item(NamedTuple):
         return f"{self.says} {self.size}".strip()
 
     @property
-    def reasons(self) -> list[str]:
-        """Why it differs or is not compared; a known cause goes with a paper that is wrong."""
-        return [self.why] if self.why and not (self.paper and self.why == Why.KNOWN) else []
+    def reason(self) -> str:
+        """Why it differs or is not compared; of the paper, whether it is wrong."""
+        return self.paper or self.why
 
 
 class FigureRow(NamedTuple):
@@ -77,43 +86,44 @@ def _figure_row(name: str, shows: str, rows: Table) -> FigureRow:
 
 
 def _items(rows: Table) -> Iterator[Item]:
-    """Comparisons that say the same of one source are one item; of the paper, all of one entry."""
+    """Comparisons that say the same of one source are one item."""
     for (source, says), own in rows.groupby(["source", "says"], sort=False):
-        first = own.sort_values("severity", kind="stable").iloc[0]
-        of_paper = first["group"] == Group.PAPER
-        yield Item(
-            own.sort_values("severity", kind="stable")["comparison"].tolist(),
-            first["verdict"],
-            first["why"],
-            first["entry"],
-            first["paper"],
-            "" if of_paper else words.source(source),
-            says,
-            _size(own, of_paper),
-        )
+        worst_first = own.sort_values("severity", kind="stable")
+        first = worst_first.iloc[0]
+        name = "" if first["group"] == Group.PAPER else words.source(source)
+        verdict, why, entry, paper = first[["verdict", "why", "entry", "paper"]]
+        size = _against_facts(own) if first["stated"] else _against_points(own, first, name)
+        named = worst_first["comparison"].tolist()
+        yield Item(named, verdict, why, entry, paper, name, says, size)
 
 
-def _size(rows: Table, of_paper: bool) -> str:
-    """What was stated and found; of points how many, of which series, and how far they are off."""
-    first = rows.iloc[0]
-    if first["stated"]:
-        stated, found = (" and ".join(rows[column]) for column in ("stated", "found"))
-        is_met = stated[0] in "<>"  # an inequality has no size
-        return "" if is_met else f"{stated}; ours {found}"
+def _against_facts(rows: Table) -> str:
+    """What was stated, and what the model has; an inequality has no size."""
+    stated, unit = rows["stated"], rows["unit"].iloc[0]
+    if stated.iloc[0][0] in "<>":
+        return ""
+    values = " and ".join(value.removesuffix(f" {unit}") for value in stated)
+    found = " and ".join(f"{float(value):.3g}" for value in rows["found"])
+    return f"{values} {unit}".removesuffix(" 1") + f", model {found}"
+
+
+def _against_points(rows: Table, first: Row, name: str) -> str:
+    """How far points are off: of the paper at most, of others as a root mean square.
+
+    Series of a source may have other units. The first one is told, and how many are like it.
+    """
     compared = rows.dropna(subset=["points"])
     if compared.empty:
         return ""
-    unit = "" if first["unit"] == "1" else f" {first['unit']}"
-    if of_paper:
-        return f"off by up to {compared['max'].max():.2g}{unit}"
-    # Series of one source may have other units: the first one is told.
-    name = compared["reference"].iloc[0]
-    series = compared[compared["reference"] == name]
-    rms = np.sqrt(np.average(series["rms"] ** 2, weights=series["points"]))
-    more = compared["reference"].nunique() - 1
-    others = f", and {more} more series" if more else ""
-    what = f"{words.of_identifier(name.split('/')[1])}, {series['points'].sum():.0f} points"
-    return f"{what}, rms {rms:.2g}{unit}{others}"
+    if not name:
+        return with_unit(float(f"{compared['max'].max():.2g}"), first["unit"])
+    series = [own for _, own in compared.groupby("reference", sort=False)]
+    own, alike = series[0], [(one["verdict"] == first["verdict"]).any() for one in series]
+    rms = np.sqrt(np.average(own["rms"] ** 2, weights=own["points"]))
+    size = with_unit(float(f"{rms:.2g}"), own["unit"].iloc[0])
+    what = words.of_identifier(own["reference"].iloc[0].split("/")[1])
+    of = f"{sum(alike)} of {len(series)} series; " if len(series) > 1 else ""
+    return f"{of}{what}, {own['points'].sum():.0f} points, rms {size}"
 
 
 def text(table: Sequence[FigureRow]) -> str:
@@ -121,48 +131,46 @@ def text(table: Sequence[FigureRow]) -> str:
     lines = []
     for row in table:
         items = [*row.paper, *row.others]
-        later = [item.name for item in items if item.verdict == Verdict.NOT_COMPARED]
+        later = [f"data of {i.name}" for i in items if i.verdict == Verdict.NOT_COMPARED]
         missing = ", ".join(dict.fromkeys([PRINTED, *later]))
         head = f"{words.figure(row.figure)}  {row.shows}; not compared: {missing}"
         lines += textwrap.wrap(head, WIDTH, subsequent_indent=INDENT)
         for item in items:
             if item.verdict != Verdict.NOT_COMPARED:
-                who = item.name or f"paper {item.paper}".rstrip()
-                told = f" {item.verdict:<12} {who}: {'; '.join([item.text, *item.reasons])}"
+                said = "; ".join(part for part in (item.text, item.reason) if part)
+                told = f" {item.verdict:<12} {item.name or 'paper'}: {said}"
                 lines += textwrap.wrap(told, WIDTH, subsequent_indent=INDENT)
     return "\n".join(lines)
 
 
 def of_solver(rows: Iterable[Row]) -> str:
     """How the checks of our solver went, in one line."""
-    words = counted(rows, solver=True)
-    return f"Solver checked by our codes and laws: {words}" if words else ""
+    told = counted(rows, solver=True)
+    return f"Solver checked by our codes and laws: {told}" if told else ""
 
 
 def beyond(rows: Iterable[Row]) -> str:
     """What the comparisons with others say in figures beyond the paper, in one line."""
-    words = counted(row for row in rows if not is_of_paper(row["figure"]))
-    return f"Beyond the paper, with others: {words}" if words else ""
+    told = counted(row for row in rows if not is_of_paper(row["figure"]))
+    return f"Beyond the paper, with others: {told}" if told else ""
 
 
 def counted(rows: Iterable[Row], solver: bool = False) -> str:
     """How many rows have each verdict: of the checks of our solver, or of all others.
 
-    Those that differ have their figures behind them.
+    Those that differ stand last, behind the names of their figures.
 
     >>> counted([{"group": "paper", "verdict": "differs", "figure": "fig6"}])
-    '1 differs (fig6)'
+    'Fig. 6: 1 differs'
     """
-    figures: dict[str, list[str]] = {verdict: [] for verdict in Verdict}
+    figures: dict[str, list[str]] = {verdict: [] for verdict in COUNTED}
     for row in rows:
         if (row["group"] == Group.SOLVER) is solver:
-            figures[row["verdict"]].append(row["figure"])
-    known = "differ as known" if solver else "differ"
-    plural: dict[str, str] = {Verdict.AGREES: "agree", Verdict.DIFFERS: known, Verdict.FAILS: "FAIL"}
-    parts = [
-        f"{len(own)} {verdict if len(own) == 1 else plural.get(verdict, verdict)}"
-        + (f" ({', '.join(dict.fromkeys(own))})" if verdict == Verdict.DIFFERS else "")
-        for verdict, own in figures.items()
-        if own
-    ]
-    return ", ".join(reversed(parts))
+            figures[row["verdict"]].append(words.figure(row["figure"]))
+    parts = []
+    for verdict, several in COUNTED.items():
+        own = figures[verdict]
+        where = f"{', '.join(dict.fromkeys(own))}: " if verdict == Verdict.DIFFERS else ""
+        count = f"{len(own)} {verdict if len(own) == 1 else several[solver]}"
+        parts += [f"{where}{count}"] if own else []
+    return "; ".join(parts)

@@ -2,6 +2,7 @@
 
 import shlex
 import textwrap
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 
 from stronge1994 import figure_table, tables, verdict_table
@@ -12,14 +13,16 @@ from stronge1994.verdict_table import Verdict, Why
 LEDGER = "results/ledger.csv"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 PASSED = """\
-PASSED: nothing has changed, and {} checks hold. Printed curves: not compared.
-A run fails if a curve leaves its tolerance, a known difference its bounds, or if
-a verdict on the paper no longer holds. It differs, as told above, and passes.
+PASSED: nothing has changed, {checks} checks hold. Printed curves: not compared.
+It says that all is as known, not that the paper is right: see the table above.
+A run FAILS if a curve is farther from a reference than its tolerance, if one of
+{known} known differences leaves its bounds, or one of {entries} verdicts on the paper
+no longer holds.
 Look:    figures/report.html in a browser: the table above, with reasons
 Play:    figures/explorer.html
 Tables:  results/verdicts.csv, results/ledger.csv
-Change:  workflow/config.yaml, and run again. What a reference is not for is then
-         not compared; to draw without judging: snakemake --cores 2 figures"""
+Change:  workflow/config.yaml, and run again. References for the old value are then
+         not compared. To draw without judging: snakemake --cores 2 figures"""
 UNMADE = (
     "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "
     "({}); to draw without judging: {}"
@@ -108,8 +111,10 @@ def summary(
     elif stopped and not others:
         parts += [_filled(STOPPED)]
     elif "all" in passed:
-        compared = [row for row in rows if row["verdict"] != Verdict.NOT_COMPARED]
-        parts += [PASSED.format(len(compared) + len(ledger))]
+        found = Counter(row["verdict"] for row in rows)
+        checks = len(rows) - found[Verdict.NOT_COMPARED] + len(ledger)
+        known = found[Verdict.DIFFERS]
+        parts += [PASSED.format(checks=checks, known=known, entries=len(ledger))]
     elif passed:
         parts += ["No comparison fails." if rows else "There is nothing to compare."]
         parts += ["The verdict of all: snakemake --cores 2"]

@@ -7,7 +7,13 @@ from stronge1994.verdict_table import Group, Why
 PAPER, OTHERS, SOLVER = Group
 SIZES = {"points": "4", "rms": "0.02", "max": "0.03", "unit": "mu v2(0)"}
 MAW, CROSS = {"reference": "maw1976/rebound"}, {"reference": "cross2014/spin"}
-STATED = {"found": "4.6", "stated": "5.8 deg", "says": "peak at", "reference": "maw1976/peak"}
+STATED = {
+    "found": "4.6",
+    "stated": "5.8 deg",
+    "unit": "deg",
+    "says": "peak at",
+    "reference": "maw1976/peak",
+}
 LIKE = {"says": "like the continuum,", "reference": "maw1976/rebound", "entry": "eq-15"}
 LIKE |= {"paper": "wrong"}
 KNOWN, UNKNOWN = {"why": Why.KNOWN}, {"why": Why.UNKNOWN}
@@ -39,16 +45,16 @@ ROWS = [
 ]
 TEXT = """\
 Fig. 2  springs; not compared: printed curve
-Fig. 6  rebound; not compared: printed curve, Johnson 1983
- agrees       paper: peaks at 5.8 deg and 9 deg; ours 4.6 and 4.6
- differs      paper wrong: like the continuum, off by up to 0.3 mu v2(0)
- differs      paper vague: peak at 5.8 deg; ours 4.6; cause unknown
+Fig. 6  rebound; not compared: printed curve, data of Johnson 1983
+ agrees       paper: peaks at 5.8 and 9 deg, model 4.6 and 4.6
+ differs      paper: like the continuum, 0.3 mu v2(0); wrong
+ differs      paper: peak at 5.8 deg, model 4.6; vague
  differs      Maw 1976: rebound, 16 points, rms 0.036 mu v2(0); scatter not
               published
- cannot tell  Cross 2014: spin, 4 points, rms 0.02, and 1 more series
+ cannot tell  Cross 2014: 1 of 2 series; spin, 4 points, rms 0.02
  agrees       Maw 1976: friction reverses
 Fig. 7  forces; not compared: printed curve
- FAILS        paper: like the continuum, off by up to 0.03 mu v2(0)
+ FAILS        paper: like the continuum, 0.03 mu v2(0)
  FAILS        Maw 1976:
  FAILS        Cross 2014: spin, 4 points, rms 0.02 mu v2(0)"""
 SHOWS = {"fig2": "springs", "fig6": "rebound", "fig7": "forces"}
@@ -66,6 +72,6 @@ def test_the_table_says_what_every_comparison_has_found():
     assert figure_table.text(table) == TEXT
     assert table[1].others[0].rows == ["fig6-9", "fig6-8"]  # the worst first
     assert table[1].paper[1].entry == "eq-15"
-    assert figure_table.beyond(rows).endswith("others: 1 agrees, 1 differs (rod)")
-    made = "2 passed, 1 not compared, 1 differs (fig6), 1 FAILS"
+    assert figure_table.beyond(rows).endswith("others: 1 agrees; Rod: 1 differs")
+    made = "1 FAILS; 2 passed; 1 not compared; Fig. 6: 1 differs"
     assert figure_table.of_solver(rows).endswith(f"laws: {made}")

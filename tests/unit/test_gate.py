@@ -56,8 +56,12 @@ def words(tmp_path, monkeypatch):
 
 def test_a_passed_run_says_where_to_look_and_what_next(words):
     said = words(passed=["all"])
-    assert "\n agrees       A: b, 50 points, rms 0.1 N\n" in said and "1 wrong" in said
-    assert "PASSED: nothing has changed, and 11 checks hold. Printed curves: not compared." in said
+    assert (
+        "\n agrees       A: b, 50 points, rms 0.1 N\n" in said
+        and "sentences of the paper: 1 wrong; 0 no" in said
+    )
+    assert "PASSED: nothing has changed, 11 checks hold. Printed curves: not compared." in said
+    assert "one of\n0 known differences leaves its bounds, or one of 1 verdicts" in said
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in said
     said = words(passed=["paper"], judged=1, whole=False)

@@ -97,7 +97,7 @@ class Comparison:
     landmark: Landmark | None = None
     columns: list[str] = field(default_factory=list)
     range: tuple[float, float] | None = None
-    limit: float = 1.0
+    limit: float = 1.0  # in the unit of the axis, of a law
     settings: dict[str, Any] = field(default_factory=dict)
     differs: KnownDifference | None = None
     bounds: dict[str, tuple[float, float]] = field(default_factory=dict)

@@ -14,8 +14,6 @@ from stronge1994.names import PRINTED
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table
 
-# Two ways to compute one energy agree to this; see the reason of the comparison.
-BALANCE_SIGMA = 1e-12
 # Both ends of a range lie within this many times the largest value: two digits are for the rounding
 # of other machines, and a wider range tests nothing.
 LARGEST_RANGE_RATIO = 100
@@ -210,10 +208,10 @@ def _law(quantity: str, at: Array, plain: Array, scale: float, columns: list[str
 
 
 def _small(comparison: Comparison, curves: Table) -> Measured:
-    """A column that must be small, or two that must be equal up to `BALANCE_SIGMA`."""
+    """A column that must be small, or two that must be equal, up to the limit."""
     first, x, values = _of_law(comparison, curves)
-    gap, scale = (values[0] - values[1], BALANCE_SIGMA) if len(values) == 2 else (values[0], 1.0)
-    return _law(first, x, gap, scale, [comparison.columns[0]] * len(x))
+    gap = values[0] - values[1] if len(values) == 2 else values[0]
+    return _law(first, x, gap, comparison.limit, [comparison.columns[0]] * len(x))
 
 
 def _range(comparison: Comparison, curves: Table) -> Measured:
@@ -239,7 +237,7 @@ def _contraction(comparison: Comparison, curves: Table) -> Measured:
     steps = own.groupby("curve", sort=False)[[x, y]].diff().abs().dropna()
     excess = (steps[y] - steps[x]).clip(lower=0.0).groupby(own[x]).max()
     places, largest = excess.index.to_numpy(), excess.to_numpy()
-    return _law(x, places, largest, 1.0, [y] * len(places))
+    return _law(x, places, largest, comparison.limit, [y] * len(places))
 
 
 _FROM_POINTS = {

@@ -138,8 +138,8 @@ def _allowed(comparison: Comparison, measured: Measured, unit: str, significance
     if isinstance(reference, Fact) and reference.tolerance is None:
         return reference.stated
     if not (isinstance(reference, Series) and reference.is_published):
-        size = comparison.limit * measured.scales[measured.worst]
-        return f"max <= {with_unit(float(f'{size:.3g}'), unit)}"
+        size = float(f"{measured.scales[measured.worst]:.3g}")
+        return f"max <= {with_unit(size, unit)}"
     criterion = f"p > {significance:g}"
     if allowed is None:
         return criterion

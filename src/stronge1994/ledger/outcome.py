@@ -52,11 +52,14 @@ def summary(rows: Sequence[Row]) -> str:
     """Lines for a terminal: counts, and each entry that no longer holds with its reason."""
     counts = Counter(row["verdict"] for row in rows)
     bad, under, graded = failing(rows), conditional(rows), sentence_of_grades(rows)
-    counted = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-    said = f"{len(bad)} no longer hold"
-    said += f"; of the confirmed {under} only under a condition" if under else ""
-    said += f"; of the wrong {graded}" if graded else ""
-    lines = textwrap.wrap(f"ledger of the paper: {counted}; {said}", 79, subsequent_indent="  ")
+    asides = {
+        "confirmed": f", {under} of them only under a condition" if under else "",
+        "wrong": f" ({graded})" if graded else "",
+    }
+    parts = [f"{count} {verdict}{asides.get(verdict, '')}" for verdict, count in counts.items()]
+    told = "; ".join([*parts, f"{len(bad)} no longer hold"])
+    head = f"{len(rows)} equations and sentences of the paper"
+    lines = textwrap.wrap(f"{head}: {told}", 79, subsequent_indent="  ")
     for row in bad:
         lines.append(f"  no longer holds: {row['entry']} ({row['where']}): {row['problem']}")
     return "\n".join(lines)

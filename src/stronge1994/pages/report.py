@@ -34,7 +34,7 @@ from stronge1994.verdict_table import Group, Verdict
 MEANING = {
     Verdict.FAILS: "outside its tolerance, or a known difference has changed: the run fails",
     Verdict.DIFFERS: "as known: the cause is known or unknown, or the scatter of the data is not "
-    "published",
+    "published, so that nobody can say what a difference means",
     Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, and all points lay "
     f"{VISIBLE_SHIFT:g} sigmas beside it",
     Verdict.NOT_COMPARED: "points are awaited, or are for other settings than those of the run",
