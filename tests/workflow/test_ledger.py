@@ -238,7 +238,7 @@ def test_what_is_right_only_under_a_condition_says_so_and_is_not_green(first_run
         if name in only:
             assert flat(f"right only if {mathematical(only[name])}") in flat(seen)
     summary = " ".join(outcome.summary(list(rows.values())).split())
-    assert f"of the confirmed {len(only)} only under a condition" in summary
+    assert f"confirmed, {len(only)} of them only under a condition;" in summary
     head = (first_run[0] / "figures/ledger.html").read_text(encoding="utf-8").split("<h2")[0]
     assert f"Of the confirmed ones {len(only)} are right only under a condition" in head
 
