@@ -28,7 +28,7 @@ COUNTED = {
     Verdict.AGREES: ("agree", "agree"),
     Verdict.CANNOT_TELL: ("cannot tell", "cannot tell"),
     Verdict.NOT_COMPARED: ("not compared", "not compared"),
-    Verdict.DIFFERS: ("differ", "differ as known"),
+    Verdict.DIFFERS: ("differ", "models differ"),
 }
 
 
@@ -122,7 +122,8 @@ def _against_points(rows: Table, first: Row, name: str) -> str:
     rms = np.sqrt(np.average(own["rms"] ** 2, weights=own["points"]))
     size = with_unit(float(f"{rms:.2g}"), own["unit"].iloc[0])
     what = words.of_identifier(own["reference"].iloc[0].split("/")[1])
-    of = f"{sum(alike)} of {len(series)} series; " if len(series) > 1 else ""
+    several = COUNTED[Verdict(first["verdict"])][0]
+    of = f"{sum(alike)} of {len(series)} series {several}: " if len(series) > 1 else ""
     return f"{of}{what}, {own['points'].sum():.0f} points, rms {size}"
 
 
@@ -131,7 +132,7 @@ def text(table: Sequence[FigureRow]) -> str:
     lines = []
     for row in table:
         items = [*row.paper, *row.others]
-        later = [f"data of {i.name}" for i in items if i.verdict == Verdict.NOT_COMPARED]
+        later = [f"points of {i.name}" for i in items if i.verdict == Verdict.NOT_COMPARED]
         missing = ", ".join(dict.fromkeys([PRINTED, *later]))
         head = f"{words.figure(row.figure)}  {row.shows}; not compared: {missing}"
         lines += textwrap.wrap(head, WIDTH, subsequent_indent=INDENT)

@@ -14,14 +14,14 @@ LEDGER = "results/ledger.csv"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 PASSED = """\
 PASSED: nothing has changed, {checks} checks hold. Printed curves: not compared.
-It says that all is as known, not that the paper is right: see the table above.
-A run FAILS if a curve is farther from a reference than its tolerance, if one of
-{known} known differences leaves its bounds, or one of {entries} verdicts on the paper
-no longer holds.
+This does not mean that the paper is right; it is "wrong" by its own model.
+A run FAILS if a curve of ours leaves the tolerance of its reference in data/,
+if one of {known} known differences leaves its bounds, or if one of {entries}
+verdicts on the paper no longer holds.
 Look:    figures/report.html in a browser: the table above, with reasons
 Play:    figures/explorer.html
 Tables:  results/verdicts.csv, results/ledger.csv
-Change:  workflow/config.yaml, and run again. References for the old value are then
+Change:  workflow/config.yaml, and run again. References for the old value are
          not compared. To draw without judging: snakemake --cores 2 figures"""
 UNMADE = (
     "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "

@@ -45,13 +45,13 @@ ROWS = [
 ]
 TEXT = """\
 Fig. 2  springs; not compared: printed curve
-Fig. 6  rebound; not compared: printed curve, data of Johnson 1983
+Fig. 6  rebound; not compared: printed curve, points of Johnson 1983
  agrees       paper: peaks at 5.8 and 9 deg, model 4.6 and 4.6
  differs      paper: like the continuum, 0.3 mu v2(0); wrong
  differs      paper: peak at 5.8 deg, model 4.6; vague
  differs      Maw 1976: rebound, 16 points, rms 0.036 mu v2(0); scatter not
               published
- cannot tell  Cross 2014: 1 of 2 series; spin, 4 points, rms 0.02
+ cannot tell  Cross 2014: 1 of 2 series cannot tell: spin, 4 points, rms 0.02
  agrees       Maw 1976: friction reverses
 Fig. 7  forces; not compared: printed curve
  FAILS        paper: like the continuum, 0.03 mu v2(0)

@@ -61,7 +61,7 @@ def test_a_passed_run_says_where_to_look_and_what_next(words):
         and "sentences of the paper: 1 wrong; 0 no" in said
     )
     assert "PASSED: nothing has changed, 11 checks hold. Printed curves: not compared." in said
-    assert "one of\n0 known differences leaves its bounds, or one of 1 verdicts" in said
+    assert "one of 0 known differences leaves its bounds, or if one of 1\nverdicts" in said
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in said
     said = words(passed=["paper"], judged=1, whole=False)
