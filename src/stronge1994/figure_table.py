@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from stronge1994 import words
+from stronge1994 import verdict_table, words
 from stronge1994.names import is_of_paper
 from stronge1994.tables import Row, Table, with_unit
 from stronge1994.verdict_table import COLUMNS, Group, Verdict
@@ -19,7 +19,6 @@ from stronge1994.verdict_table import COLUMNS, Group, Verdict
 # The paper's model, in curves that are selected by their model.
 MODELS_OF_PAPER = ("", "lumped", "lumped.hysteretic")
 NUMBERS = ("points", "rms", "max")
-WIDTH, INDENT = 80, " " * 14  # of a terminal
 PRINTED = "printed curve"  # which no run has compared
 # Verdicts in a line that counts them, with words for several, and for checks of our solver.
 COUNTED = {
@@ -135,12 +134,11 @@ def text(table: Sequence[FigureRow]) -> str:
         later = [f"points of {i.name}" for i in items if i.verdict == Verdict.NOT_COMPARED]
         missing = ", ".join(dict.fromkeys([PRINTED, *later]))
         head = f"{words.figure(row.figure)}  {row.shows}; not compared: {missing}"
-        lines += textwrap.wrap(head, WIDTH, subsequent_indent=INDENT)
+        lines += textwrap.wrap(head, verdict_table.WIDTH)
         for item in items:
             if item.verdict != Verdict.NOT_COMPARED:
-                said = "; ".join(part for part in (item.text, item.reason) if part)
-                told = f" {item.verdict:<12} {item.name or 'paper'}: {said}"
-                lines += textwrap.wrap(told, WIDTH, subsequent_indent=INDENT)
+                parts = item.text, item.reason
+                lines += verdict_table.lines(item.verdict, item.name or "paper", parts)
     return "\n".join(lines)
 
 

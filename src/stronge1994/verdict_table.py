@@ -1,11 +1,14 @@
 """The verdicts of a run as one table with a row for each comparison."""
 
+import itertools
+import textwrap
 from collections.abc import Iterable, Sequence
 from enum import StrEnum
 
 from stronge1994 import tables
 from stronge1994.tables import Row
 
+WIDTH = 80  # of a terminal
 # Texts that may hold a comma stand last.
 COLUMNS = [
     "figure", "comparison", "group", "verdict", "why", "points", "rms", "max", "unit",
@@ -76,11 +79,11 @@ def measured(row: Row) -> str:
     return f"{size.strip()}{sigmas}; {count}"
 
 
-def tested(row: Row) -> str:
+def chance(row: Row) -> str:
     """The test of published points; it says so where their sigma itself is an estimate.
 
     >>> row = {"chi^2": "242", "degrees of freedom": "5", "degrees of sigma": "4", "p": "0.0011"}
-    >>> tested(row)
+    >>> chance(row)
     'F test, as sigma is estimated from 4 values: p = 0.0011'
     """
     if not row["p"]:
@@ -94,16 +97,29 @@ def tested(row: Row) -> str:
 def problem(row: Row) -> str:
     """Why a row fails: its bound, or with a known difference that it was to stay as it was."""
     bound = f"a known difference with {row['bounds']}" if row["bounds"] else row["allowed"]
-    found = "; ".join(part for part in (measured(row), tested(row)) if part)
+    found = "; ".join(part for part in (measured(row), chance(row)) if part)
     limits = f"{found}; allowed is {bound}" if found else ""
     return ": ".join(part for part in (row["note"], limits) if part)
 
 
 def text(rows: Sequence[Row]) -> str:
     """The rows of one figure for a terminal."""
-    from tabulate import tabulate  # no job needs it
+    told = (
+        (
+            row["verdict"],
+            row["comparison"],
+            [measured(row), row["reference"], row["why"], row["entry"]],
+        )
+        for row in rows
+    )
+    return "\n".join(itertools.chain.from_iterable(itertools.starmap(lines, told)))
 
-    cells = [[row["comparison"], row["reference"], measured(row), outcome(row)] for row in rows]
-    head = ["comparison", "reference", "measured", "verdict"]
-    table = tabulate(cells, head, disable_numparse=True)
-    return "\n".join(line.rstrip() for line in table.splitlines())
+
+def lines(verdict: str, name: str, parts: Iterable[str]) -> list[str]:
+    """A verdict, and of whom or what it says what, in lines for a terminal of 80 columns.
+
+    >>> lines("agrees", "Maw 1976", ["4 points", ""])
+    [' agrees       Maw 1976: 4 points']
+    """
+    told = f" {verdict:<12} {name}: {'; '.join(part for part in parts if part)}"
+    return textwrap.wrap(told, WIDTH, subsequent_indent=" " * 14, break_on_hyphens=False)

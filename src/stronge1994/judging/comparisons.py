@@ -119,11 +119,6 @@ class Comparison:
         return cls(**own)
 
     @property
-    def is_published(self) -> bool:
-        """Whether the reference has points of nature."""
-        return isinstance(self.reference, Series) and self.reference.is_published
-
-    @property
     def group(self) -> Group:
         """With what it compares.
 

@@ -45,8 +45,8 @@ def _is_good(
     comparison: Comparison, measured: Measured, significance: float
 ) -> tuple[bool, ChiSquared | None]:
     """Whether distances are small enough, and chi-squared of published points."""
-    if isinstance(comparison.reference, Series) and comparison.is_published:
-        number = comparison.reference.sigma_values
-        chi2 = chi_squared(measured.sigmas, measured.shifts, number)
+    reference = comparison.reference
+    if isinstance(reference, Series) and reference.is_published:
+        chi2 = chi_squared(measured.sigmas, measured.shifts, reference.sigma_values)
         return chi2.p > significance, chi2
     return bool(np.abs(measured.sigmas).max() <= 1.0), None

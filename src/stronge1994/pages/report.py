@@ -55,7 +55,7 @@ def page(values: TemplateValues, template: Path) -> str:
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "numbers": numbers,
         "measured": verdict_table.measured,
-        "tested": verdict_table.tested,
+        "chance": verdict_table.chance,
         "outcome": verdict_table.outcome,
     }
     environment.tests["in_paper"] = is_of_paper
