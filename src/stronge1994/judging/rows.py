@@ -79,7 +79,7 @@ def _row(
         what = "reference" if reference else "law"
         return cells | none | {"why": Why.SETTINGS, "note": f"the {what} is for {others}"}
     if known:
-        cells |= {"entry": known.entry, "note": plain(known.note), "paper": known.paper}
+        cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
         measured = measure(comparison, curves)
         verdict, numbers = _judged(comparison, measured, significance)
@@ -87,7 +87,7 @@ def _row(
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     cells |= numbers | {"verdict": verdict}
     if verdict == Verdict.DIFFERS and known:
-        cells["why"] = known.why
+        cells |= {"why": known.why, "paper": known.paper}
     elif verdict == Verdict.FAILS and len(measured.at) > 1:
         cells["note"] = "; ".join(filter(None, (cells.get("note"), _place(measured))))
     of = measured.curves or cells["curve"]
