@@ -14,7 +14,7 @@ LEDGER = "results/ledger.csv"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 PASSED = """\
 PASSED: nothing has changed, {checks} checks hold. Printed curves: not compared.
-This does not mean that the paper is right; it is "wrong" by its own model.
+This does not mean that the paper is right. "wrong" says: not by its own model.
 A run FAILS if a curve of ours leaves the tolerance of its reference in data/,
 if one of {known} known differences leaves its bounds, or if one of {entries}
 verdicts on the paper no longer holds.
