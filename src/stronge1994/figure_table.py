@@ -20,15 +20,6 @@ from stronge1994.verdict_table import COLUMNS, Group, Verdict
 MODELS_OF_PAPER = ("", "lumped", "lumped.hysteretic")
 NUMBERS = ("points", "rms", "max")
 PRINTED = "printed curve"  # which no run has compared
-# Verdicts in a line that counts them, with words for several, and for checks of our solver.
-COUNTED = {
-    Verdict.FAILS: ("FAIL", "FAIL"),
-    Verdict.PASSED: ("passed", "passed"),
-    Verdict.AGREES: ("agree", "agree"),
-    Verdict.CANNOT_TELL: ("cannot tell", "cannot tell"),
-    Verdict.NOT_COMPARED: ("not compared", "not compared"),
-    Verdict.DIFFERS: ("differ", "models differ"),
-}
 
 
 class Item(NamedTuple):
@@ -121,8 +112,7 @@ def _against_points(rows: Table, first: Row, name: str) -> str:
     rms = np.sqrt(np.average(own["rms"] ** 2, weights=own["points"]))
     size = with_unit(float(f"{rms:.2g}"), own["unit"].iloc[0])
     what = words.of_identifier(own["reference"].iloc[0].split("/")[1])
-    several = COUNTED[Verdict(first["verdict"])][0]
-    of = f"{sum(alike)} of {len(series)} series {several}: " if len(series) > 1 else ""
+    of = f"in {sum(alike)} of {len(series)} series: " if len(series) > 1 else ""
     return f"{of}{what}, {own['points'].sum():.0f} points, rms {size}"
 
 
@@ -155,21 +145,18 @@ def beyond(rows: Iterable[Row]) -> str:
 
 
 def counted(rows: Iterable[Row], solver: bool = False) -> str:
-    """How many rows have each verdict: of the checks of our solver, or of all others.
+    """How many rows have each verdict, of the checks of our solver or of all others, best first.
 
-    Those that differ stand last, behind the names of their figures.
+    Behind those that differ stand the names of their figures.
 
     >>> counted([{"group": "paper", "verdict": "differs", "figure": "fig6"}])
-    'Fig. 6: 1 differs'
+    '1 differs (Fig. 6)'
     """
-    figures: dict[str, list[str]] = {verdict: [] for verdict in COUNTED}
-    for row in rows:
-        if (row["group"] == Group.SOLVER) is solver:
-            figures[row["verdict"]].append(words.figure(row["figure"]))
+    own = [row for row in rows if (row["group"] == Group.SOLVER) is solver]
     parts = []
-    for verdict, several in COUNTED.items():
-        own = figures[verdict]
-        where = f"{', '.join(dict.fromkeys(own))}: " if verdict == Verdict.DIFFERS else ""
-        count = f"{len(own)} {verdict if len(own) == 1 else several[solver]}"
-        parts += [f"{where}{count}"] if own else []
-    return "; ".join(parts)
+    for verdict in reversed(Verdict):
+        names = [words.figure(row["figure"]) for row in own if row["verdict"] == verdict]
+        where = f" ({', '.join(dict.fromkeys(names))})" if verdict == Verdict.DIFFERS else ""
+        models = "models: " if where and solver else ""  # a solver is right or wrong
+        parts += [f"{models}{len(names)} {verdict}{where}"] if names else []
+    return ", ".join(parts)

@@ -51,7 +51,7 @@ Fig. 6  rebound; not compared: printed curve, points of Johnson 1983
  differs      paper: peak at 5.8 deg, model 4.6; vague
  differs      Maw 1976: rebound, 16 points, rms 0.036 mu v2(0); scatter not
               published
- cannot tell  Cross 2014: 1 of 2 series cannot tell: spin, 4 points, rms 0.02
+ cannot tell  Cross 2014: in 1 of 2 series: spin, 4 points, rms 0.02
  agrees       Maw 1976: friction reverses
 Fig. 7  forces; not compared: printed curve
  FAILS        paper: like the continuum, 0.03 mu v2(0)
@@ -72,6 +72,6 @@ def test_the_table_says_what_every_comparison_has_found():
     assert figure_table.text(table) == TEXT
     assert table[1].others[0].rows == ["fig6-9", "fig6-8"]  # the worst first
     assert table[1].paper[1].entry == "eq-15"
-    assert figure_table.beyond(rows).endswith("others: 1 agrees; Rod: 1 differs")
-    made = "1 FAILS; 2 passed; 1 not compared; Fig. 6: 1 differs"
+    assert figure_table.beyond(rows).endswith("others: 1 agrees, 1 differs (Rod)")
+    made = "2 passed, 1 not compared, models: 1 differs (Fig. 6), 1 FAILS"
     assert figure_table.of_solver(rows).endswith(f"laws: {made}")

@@ -340,7 +340,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
     assert "PASSED" not in text and "What we found" not in text
     first, rest = page[page.index('<h3 id="fig6">') :].split("</table>")[:2]
     assert '<tr id="fig6-far" class="FAILS"' in first and flat(first).endswith(flat(TOLD))
-    assert "3 more comparisons: 2 agree; solver checked: 1 passed" in Page(rest).text
+    assert "3 more comparisons: 2 agrees; solver checked: 1 passed" in Page(rest).text
     assert flat(rest).endswith(flat(REST))
     assert all(flat(row) in flat(page) for row in ROWS.split("|"))
     assert "&lt;oh&gt;" in page

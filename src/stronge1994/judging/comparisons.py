@@ -15,6 +15,8 @@ from stronge1994.tables import Table
 from stronge1994.verdict_table import Group, Why
 
 PAPER = "stronge1994"  # the source that has what the paper states
+# Parts of the axis of incidence, in order; the limits of the regimes divide it into these.
+REGIMES = ("initial stick", "slip and stick", "slip throughout")
 
 
 class Metric(StrEnum):
@@ -32,14 +34,6 @@ class Metric(StrEnum):
     SMALL = "small"
     RANGE = "range"
     CONTRACTION = "contraction"
-
-
-class Regime(StrEnum):
-    """A part of the axis of incidence; the limits of the regimes divide it into these, in order."""
-
-    STICK = "initial stick"
-    SLIP_STICK = "slip and stick"
-    SLIP = "slip throughout"
 
 
 @dataclass(frozen=True)
@@ -92,7 +86,7 @@ class Comparison:
     reference: Series | Fact | None = None
     curve: dict[str, Any] = field(default_factory=dict)
     points: dict[str, Any] = field(default_factory=dict)
-    regime: Regime | None = None
+    regime: str = ""  # one of `REGIMES`
     allowance: Allowance | None = None
     landmark: Landmark | None = None
     columns: list[str] = field(default_factory=list)
@@ -177,7 +171,7 @@ class Comparison:
 
     def _window(self, series: Series) -> tuple[float, float]:
         """Where its regime begins and ends on the axis, by the parameters of the source."""
-        if self.regime is None:
+        if not self.regime:
             return -np.inf, np.inf
         stated = series.parameters
         groups = (stated[key] for key in ("mass_ratio", "stiffness_ratio", "restitution"))
@@ -185,7 +179,7 @@ class Comparison:
         if series.x.column == "angle":
             limits = np.degrees(np.arctan(stated["friction"] * limits))
         ends = [-np.inf, *limits, np.inf]
-        place = list(Regime).index(self.regime)
+        place = REGIMES.index(self.regime)
         return ends[place], ends[place + 1]
 
 
