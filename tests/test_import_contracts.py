@@ -45,7 +45,7 @@ REPRODUCTION = {
     "tables": "common pandas",
     "solving": "pandas tables",
     "verdict_table": "tables",
-    "figure_table": "names pandas tables verdict_table",
+    "figure_table": "names words pandas tables verdict_table",
     "formulas": "",
     "goodness": "common",
     "reference_data": "common pandas tables",

@@ -1,201 +1,162 @@
-"""The verdicts of a run in one table: a row for each figure, a cell for each question.
+"""The table for a reader: of each figure of the paper what agrees with what, and what does not.
 
-Solved right: our second codes and laws, which say nothing about nature. As printed: what the paper
-states. Beside others: measurements, other codes and other authors. There only the paper's model is
-told; the table of all comparisons has the other models.
+It has what the paper states, and what others measured or computed, of these only beside the paper's
+model. The checks of our solver, and the figures beyond the paper, have a line each.
 """
 
-import itertools
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from stronge1994.names import SCENE, is_of_paper
-from stronge1994.tables import Row, Table
-from stronge1994.verdict_table import COLUMNS, LEDGER, Question, Verdict
+from stronge1994 import verdict_table, words
+from stronge1994.names import is_of_paper
+from stronge1994.tables import Row, Table, with_unit
+from stronge1994.verdict_table import COLUMNS, Group, Verdict
 
-SCENES = "scenes"  # one row for all tables of impacts
 # The paper's model, in curves that are selected by their model.
 MODELS_OF_PAPER = ("", "lumped", "lumped.hysteretic")
-LEAST_SHARE = 1e-3  # of a sigma: less is shown as 0
-# Widths of the columns in a terminal of 80. Names of the paper's figures are shorter than others.
-PAPER_WIDTHS, OTHER_WIDTHS = (6, 11, 23, 37), (13, 11, 16, 37)
-HEADER = """\
-figure solved right as printed              beside others: number of points,
-       axis  sigma what differs: how much  rms [axis], rms [sigma], verdict"""
+NUMBERS = ("points", "rms", "max")
+PRINTED = "printed curve"  # which no run has compared
 
 
 class Item(NamedTuple):
-    """A part of a cell: what it says, and the comparisons that say it.
+    """What some comparisons with one source say together.
 
-    The worst comparison stands first. `name` is a source or an entry of the ledger; `size` says how
-    large a difference is, in `unit` or as two numbers. `points` are those of a source; of other
-    items it counts the comparisons.
+    The worst comparison stands first in `rows`, and gives `verdict` and `why`. `name` is that of
+    the source, empty for the paper, and `paper` says whether that is wrong. `size` is in words.
     """
 
     rows: list[str]
     verdict: str
-    name: str = ""
-    points: str = ""
-    size: str = ""
-    unit: str = ""
-    sigmas: str = ""
+    why: str
+    entry: str
+    paper: str
+    name: str
+    says: str
+    size: str
+
+    @property
+    def text(self) -> str:
+        """What it says, without its source and why it differs."""
+        return f"{self.says} {self.size}".strip()
+
+    @property
+    def reason(self) -> str:
+        """Why it differs or is not compared; of the paper, whether it is wrong."""
+        return self.paper or self.why
 
 
 class FigureRow(NamedTuple):
-    """The verdicts on one figure, by question; `others` of the paper's model only."""
+    """What a figure shows, and all that it is compared with but our own checks."""
 
     figure: str
-    solved: list[Item]
-    printed: list[Item]
+    shows: str
+    paper: list[Item]
     others: list[Item]
-    awaited: list[Item]
 
 
-def of_run(rows: Sequence[Row]) -> list[FigureRow]:
-    """A row for each figure of the verdict table `rows`, in their order; one for all scenes.
-
-    >>> row = {"figure": "fig6", "comparison": "fig6-rebound", "question": "solved right"}
-    >>> row |= {"verdict": "right", "reference": "lumped_40_digits/fig6", "unit": "m"}
-    >>> row |= {"max [sigma]": "0.4", "max [axis units]": "4e-13"}
-    >>> of_run([row])[0].solved[0].size
-    '4e-13'
-    """
+def of_run(rows: Sequence[Row], shows: Mapping[str, str]) -> list[FigureRow]:
+    """A row for each figure that `shows` names, from the rows of the verdict table."""
     table = pd.DataFrame([dict.fromkeys(COLUMNS, "") | row for row in rows], columns=COLUMNS)
-    numbers = [column for column in COLUMNS if column == "points" or column[-1] == "]"]
-    table[numbers] = table[numbers].apply(pd.to_numeric)
-    verdicts = [Verdict(verdict) for verdict in table["verdict"]]
-    severity = [list(Verdict).index(verdict) for verdict in verdicts]
-    table = table.assign(severity=severity, fails=[verdict.fails for verdict in verdicts])
-    table["source"] = table["reference"].str.split("/").str[0]
-    names = table["figure"].where(~table["figure"].str.startswith(SCENE), SCENES)
-    return [_figure_row(name, own) for name, own in table.groupby(names, sort=False)]
+    for column in NUMBERS:
+        table[column] = pd.to_numeric(table[column])
+    severity = [list(Verdict).index(Verdict(verdict)) for verdict in table["verdict"]]
+    table = table.assign(severity=severity, source=table["reference"].str.split("/").str[0])
+    by_figure = {name: table[table["figure"] == name] for name in shows}
+    return [_figure_row(name, shows[name], own) for name, own in by_figure.items()]
 
 
-def _figure_row(name: str, rows: Table) -> FigureRow:
-    solved, printed, others = (rows[rows["question"] == question] for question in Question)
-    shown = others[others["fails"] | others["model"].isin(MODELS_OF_PAPER)]
-    awaited = shown["verdict"] == Verdict.AWAITED
-    present, later = (
-        [_source(source, own) for source, own in part.groupby("source", sort=False)]
-        for part in (shown[~awaited], shown[awaited])
-    )
-    return FigureRow(name, list(_solved(solved)), list(_printed(printed)), present, later)
+def _figure_row(name: str, shows: str, rows: Table) -> FigureRow:
+    paper, others = (rows[rows["group"] == group] for group in (Group.PAPER, Group.OTHERS))
+    shown = others["model"].isin(MODELS_OF_PAPER) | (others["verdict"] == Verdict.FAILS)
+    return FigureRow(name, shows, list(_items(paper)), list(_items(others[shown])))
 
 
-def _item(rows: Table, verdict: str = "", name: str = "", **cells: str) -> Item:
-    """An item of some comparisons, with the worst verdict unless another one is given."""
-    worst_first = rows.sort_values("severity", kind="stable")
-    own = verdict or worst_first["verdict"].iloc[0]
-    return Item(worst_first["comparison"].tolist(), own, name, **cells)
+def _items(rows: Table) -> Iterator[Item]:
+    """Comparisons that say the same of one source are one item."""
+    for (source, says), own in rows.groupby(["source", "says"], sort=False):
+        worst_first = own.sort_values("severity", kind="stable")
+        first = worst_first.iloc[0]
+        name = "" if first["group"] == Group.PAPER else words.source(source)
+        verdict, why, entry, paper = first[["verdict", "why", "entry", "paper"]]
+        size = _against_facts(own) if first["stated"] else _against_points(own, first, name)
+        named = worst_first["comparison"].tolist()
+        yield Item(named, verdict, why, entry, paper, name, says, size)
 
 
-def _solved(rows: Table) -> Iterator[Item]:
-    """What is wrong, else what is right with its largest differences; and what is known to differ.
+def _against_facts(rows: Table) -> str:
+    """What was stated, and what the model has; an inequality has no size."""
+    stated, unit = rows["stated"], rows["unit"].iloc[0]
+    if stated.iloc[0][0] in "<>":
+        return ""
+    values = " and ".join(value.removesuffix(f" {unit}") for value in stated)
+    found = " and ".join(f"{float(value):.3g}" for value in rows["found"])
+    return f"{values} {unit}".removesuffix(" 1") + f", model {found}"
 
-    The difference in sigmas is that from second codes: 1 is all that is allowed.
+
+def _against_points(rows: Table, first: Row, name: str) -> str:
+    """How far points are off: of the paper at most, of others as a root mean square.
+
+    Series of a source may have other units. The first one is told, and how many are like it.
     """
-    wrong, right = rows[rows["fails"]], rows[rows["verdict"] == Verdict.RIGHT]
-    known = rows[[Verdict(verdict).differs for verdict in rows["verdict"]]]
-    if len(wrong):
-        yield _item(wrong, Verdict.WRONG, points=f"{len(wrong)}")
-    elif len(right):
-        # A table with axes of several units has no difference in the unit of the axis.
-        size = right["max [axis units]"][right["unit"] != ""].max()
-        share = right["max [sigma]"][right["reference"] != ""].max()
-        yield _item(
-            right,
-            points=f"{len(right)}",
-            size="" if np.isnan(size) else f"{size:.0e}" if size else "0",
-            sigmas="" if np.isnan(share) else f"{share:.1g}" if share > LEAST_SHARE else "0",
-        )
-    if len(known):
-        yield _item(known, "known difference", points=f"{len(known)}")
-
-
-def _printed(rows: Table) -> Iterator[Item]:
-    """How many statements agree; then each difference, by entry of the ledger."""
-    agree = rows["verdict"] == Verdict.AGREES
-    if agree.any():
-        yield _item(rows[agree], points=f"{agree.sum()}")
-    differ = rows[~agree]
-    causes = pd.Series([_cause(row) for row in differ.to_dict("records")], differ.index, str)
-    for name, own in differ.groupby(causes, sort=False):
-        first = own.iloc[0]
-        size = ""  # of a figure that could not be solved
-        if first["found"]:
-            size = f"{first['found']}, not {first['stated']}".removesuffix(f" {first['unit']}")
-        elif own["points"].notna().all():
-            size = f"rms {_rms(own, 'axis units')}"
-        yield _item(own, name=name, size=size, unit=first["unit"])
-
-
-def _cause(row: Row) -> str:
-    """Entry of the ledger or note of a known difference; of a row that fails without, its name."""
-    note = row["note"].partition(";")[0]
-    if row["fails"] and not note.startswith(LEDGER):
-        return row["comparison"].removeprefix(f"{row['figure']}-")
-    return note.removeprefix(LEDGER)
-
-
-def _source(source: str, rows: Table) -> Item:
-    """All comparisons with one source; the size is that of its first series."""
-    measured = rows.dropna(subset=["points"])
-    if measured.empty:
-        return _item(rows, name=source)
-    points = f"{measured['points'].sum():.0f}"
-    if not measured["rms [sigma]"].any():  # an inequality that holds has no distance
-        return _item(rows, name=source, points=points)
-    first = measured[measured["reference"] == measured["reference"].iloc[0]]
-    size, unit = _rms(first, "axis units"), first["unit"].iloc[0]
-    return _item(
-        rows, "", source, points=points, size=size, unit=unit, sigmas=_rms(measured, "sigma")
-    )
-
-
-def _rms(rows: Table, unit: str) -> str:
-    """Root mean square distance of all points of several rows."""
-    return f"{np.sqrt(np.average(rows[f'rms [{unit}]'] ** 2, weights=rows['points'])):.2g}"
+    compared = rows.dropna(subset=["points"])
+    if compared.empty:
+        return ""
+    if not name:
+        return with_unit(float(f"{compared['max'].max():.2g}"), first["unit"])
+    series = [own for _, own in compared.groupby("reference", sort=False)]
+    own, alike = series[0], [(one["verdict"] == first["verdict"]).any() for one in series]
+    rms = np.sqrt(np.average(own["rms"] ** 2, weights=own["points"]))
+    size = with_unit(float(f"{rms:.2g}"), own["unit"].iloc[0])
+    what = words.of_identifier(own["reference"].iloc[0].split("/")[1])
+    of = f"in {sum(alike)} of {len(series)} series: " if len(series) > 1 else ""
+    return f"{of}{what}, {own['points'].sum():.0f} points, rms {size}"
 
 
 def text(table: Sequence[FigureRow]) -> str:
     """The table for a terminal of 80 columns."""
-    lines = [HEADER]
+    lines = []
     for row in table:
-        widths = PAPER_WIDTHS if is_of_paper(row.figure) else OTHER_WIDTHS
-        cells = [
-            [row.figure],
-            [_solved_words(item) for item in row.solved],
-            [_printed_words(item) for item in row.printed],
-            [*map(_source_words, row.others), *(f"awaited: {i.name}" for i in row.awaited)],
-        ]
-        wrapped = [
-            [line for part in cell for line in textwrap.wrap(part, width)] or ["-"]
-            for cell, width in zip(cells, widths, strict=True)
-        ]
-        for line in itertools.zip_longest(*wrapped, fillvalue=""):
-            parts = [part.ljust(width) for part, width in zip(line, widths, strict=True)]
-            lines.append(" ".join(parts).rstrip())
+        items = [*row.paper, *row.others]
+        later = [f"points of {i.name}" for i in items if i.verdict == Verdict.NOT_COMPARED]
+        missing = ", ".join(dict.fromkeys([PRINTED, *later]))
+        head = f"{words.figure(row.figure)}  {row.shows}; not compared: {missing}"
+        lines += textwrap.wrap(head, verdict_table.WIDTH)
+        for item in items:
+            if item.verdict != Verdict.NOT_COMPARED:
+                parts = item.text, item.reason
+                lines += verdict_table.lines(item.verdict, item.name or "paper", parts)
     return "\n".join(lines)
 
 
-def _solved_words(item: Item) -> str:
-    if item.verdict == Verdict.RIGHT:
-        return f"{item.size or '':5} {item.sigmas}".rstrip() or "right"
-    return f"{item.points} WRONG" if item.verdict == Verdict.WRONG else f"{item.points} known"
+def of_solver(rows: Iterable[Row]) -> str:
+    """How the checks of our solver went, in one line."""
+    told = counted(rows, solver=True)
+    return f"Solver checked by our codes and laws: {told}" if told else ""
 
 
-def _printed_words(item: Item) -> str:
-    if item.verdict == "agrees":
-        return f"{item.points} agree" + ("s" if item.points == "1" else "")
-    mark = "DIVERGES " if Verdict(item.verdict).fails else ""
-    return f"{mark}{item.name}" + (f": {item.size}" if item.size else "")
+def beyond(rows: Iterable[Row]) -> str:
+    """What the comparisons with others say in figures beyond the paper, in one line."""
+    told = counted(row for row in rows if not is_of_paper(row["figure"]))
+    return f"Beyond the paper, with others: {told}" if told else ""
 
 
-def _source_words(item: Item) -> str:
-    verdict = item.verdict.upper() if Verdict(item.verdict).fails else item.verdict
-    numbers = [item.points, item.size, item.sigmas, verdict.removesuffix(" difference")]
-    return " ".join([item.name, *(part for part in numbers if part)])
+def counted(rows: Iterable[Row], solver: bool = False) -> str:
+    """How many rows have each verdict, of the checks of our solver or of all others, best first.
+
+    Behind those that differ stand the names of their figures.
+
+    >>> counted([{"group": "paper", "verdict": "differs", "figure": "fig6"}])
+    '1 differs (Fig. 6)'
+    """
+    own = [row for row in rows if (row["group"] == Group.SOLVER) is solver]
+    parts = []
+    for verdict in reversed(Verdict):
+        names = [words.figure(row["figure"]) for row in own if row["verdict"] == verdict]
+        where = f" ({', '.join(dict.fromkeys(names))})" if verdict == Verdict.DIFFERS else ""
+        models = "models: " if where and solver else ""  # a solver is right or wrong
+        parts += [f"{models}{len(names)} {verdict}{where}"] if names else []
+    return ", ".join(parts)

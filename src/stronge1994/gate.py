@@ -2,25 +2,31 @@
 
 import shlex
 import textwrap
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 
 from stronge1994 import figure_table, tables, verdict_table
 from stronge1994.ledger import outcome
 from stronge1994.tables import Row
-from stronge1994.verdict_table import Verdict
+from stronge1994.verdict_table import Verdict, Why
 
-LEDGER, REPORT = "results/ledger.csv", "figures/report.html"
+LEDGER = "results/ledger.csv"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
-KNOWN = (
-    "Solved right: our own check only; largest difference in the axis' unit, and in sigmas, "
-    "of which 1 is allowed. Beside others: the paper's model. A run also fails if one of the "
-    f"{{}} known differences changes: {REPORT}#known has cause, size and bound of each."
-)
-PASSED = f"""\
-PASSED. Each comparison: results/verdicts.csv, {LEDGER}
-Look:    {REPORT} in a browser: the table above, with reasons
+PASSED = """\
+PASSED: nothing has changed, {checks} checks hold. Printed curves: not compared.
+This does not mean that the paper is right. "wrong" says: not by its own model.
+A run FAILS if a curve of ours leaves the tolerance of its reference in data/,
+if one of {known} known differences leaves its bounds, or if one of {entries}
+verdicts on the paper no longer holds.
+Look:    figures/report.html in a browser: the table above, with reasons
 Play:    figures/explorer.html
-Change:  workflow/config.yaml, and run again: only what depends on it is redone"""
+Tables:  results/verdicts.csv, results/ledger.csv
+Change:  workflow/config.yaml, and run again. References for the old value are
+         not compared. To draw without judging: snakemake --cores 2 figures"""
+UNMADE = (
+    "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "
+    "({}); to draw without judging: {}"
+)
 STOPPED = (
     "Stopped before the end: what is not made anew is missing or of an earlier run. Type the same "
     "command again, what was finished is kept. Usual causes: workflow/README.md, Troubleshooting."
@@ -46,18 +52,24 @@ def faults(
     return [
         *(f"missing: {name}" for name in [*comparisons, *entries] if name not in there),
         *(
-            f"{row['verdict']}: {row['comparison']}: {verdict_table.why(row)}"
+            f"FAILS: {row['comparison']}: {verdict_table.problem(row)}"
             for row in verdicts
-            if verdict_table.fails(row)
+            if row["verdict"] == Verdict.FAILS
         ),
         *(f"no longer holds: {row['entry']}: {row['problem']}" for row in outcome.failing(ledger)),
     ]
+
+
+def unmade(verdicts: Sequence[Row]) -> list[Row]:
+    """Comparisons that cannot be made with the settings of the run."""
+    return [row for row in verdicts if row["why"] == Why.SETTINGS]
 
 
 def summary(
     verdicts: Sequence[str],
     comparisons: Collection[str],
     entries: Collection[str],
+    shows: Mapping[str, str],
     failed: Mapping[str, str],
     passed: Collection[str],
     stopped: bool,
@@ -66,38 +78,47 @@ def summary(
     """What a run says at its end, by the tables of what it judges that are up to date then.
 
     `verdicts` are these tables, `comparisons` and `entries` as for `faults`; no entries say that
-    the ledger is not judged. `failed` names jobs, with their logs, and `passed` the targets that
-    judge and have passed; `stopped` says that a job failed or that the run was interrupted.
-    `config` are the arguments of --config, to be repeated.
+    the ledger is not judged. `shows` says what each figure of the paper shows. `failed` names jobs,
+    with their logs, and `passed` the targets that judge and have passed; `stopped` says that a job
+    failed or that the run was interrupted. `config` are the arguments of --config, to be repeated.
     """
     rows = verdict_table.gather(verdicts)
     ledger = tables.read_rows(LEDGER, outcome.COLUMNS) if entries else []
-    wrong = faults(rows, ledger, comparisons, entries)
+    wrong, others = faults(rows, ledger, comparisons, entries), unmade(rows)
+    again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
     parts = [""]
     if len(verdicts) > 1:
-        known = sum(Verdict(row["verdict"]).differs for row in rows)
-        parts += [figure_table.text(figure_table.of_run(rows)), ""]
-        parts += [_filled(line) for line in verdict_table.counts(rows).splitlines()]
-        parts += [_filled(KNOWN.format(known))]
+        judged = {row["figure"] for row in rows}
+        shown = {name: words for name, words in shows.items() if name in judged}
+        parts += [figure_table.text(figure_table.of_run(rows, shown))]
+        parts += [
+            line for line in (figure_table.beyond(rows), figure_table.of_solver(rows)) if line
+        ]
+        parts += [""]
     elif verdicts:
         parts += [verdict_table.text(rows), f"All columns: {verdicts[0]}"]
     parts += [outcome.summary(ledger)] if ledger else []
     parts += [f"failed: {job} (log: {log})" for job, log in failed.items()]
+    if others:
+        settings = "; ".join(list(dict.fromkeys(row["note"] for row in others))[:2])
+        parts += [_filled(UNMADE.format(len(others), settings, shlex.join(again)))]
     if wrong:
-        again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
         parts += [f"On purpose? To draw without being judged:  {shlex.join(again)}"]
         parts += [f"FAILED. Reasons: {len(wrong)}"]
         parts += [_filled(fault) for fault in wrong[:MOST_FAULTS]]
         more = len(wrong) - MOST_FAULTS
         parts += [f"  and {more} more: results/verdicts/, {LEDGER}"] if more > 0 else []
-    elif stopped:
+    elif stopped and not others:
         parts += [_filled(STOPPED)]
     elif "all" in passed:
-        parts += [PASSED]
+        found = Counter(row["verdict"] for row in rows)
+        checks = len(rows) - found[Verdict.NOT_COMPARED] + len(ledger)
+        known = found[Verdict.DIFFERS]
+        parts += [PASSED.format(checks=checks, known=known, entries=len(ledger))]
     elif passed:
         parts += ["No comparison fails." if rows else "There is nothing to compare."]
         parts += ["The verdict of all: snakemake --cores 2"]
-    else:
+    elif not others:
         parts += ["Not judged. Pictures and pages: figures/"]
     return "\n".join(parts) + "\n"
 

@@ -48,6 +48,15 @@ def sigma_name(column: str) -> str:
     return column.replace(" [", "_sigma [")
 
 
+def with_unit(value: float, unit: str) -> str:
+    """A number and its unit, which a pure number does not have.
+
+    >>> with_unit(0.50, "N"), with_unit(2.0, "1")
+    ('0.5 N', '2')
+    """
+    return f"{value:g}" if unit in ("", "1") else f"{value:g} {unit}"
+
+
 def curve(columns: Columns, model: str, variant: str = "", **parameters: Any) -> Table:
     """One curve, whose points have these columns. A number that is not finite is an error.
 

@@ -1,79 +1,56 @@
 """The verdicts of a run as one table with a row for each comparison."""
 
-from collections import Counter
+import itertools
+import textwrap
 from collections.abc import Iterable, Sequence
 from enum import StrEnum
 
 from stronge1994 import tables
 from stronge1994.tables import Row
 
+WIDTH = 80  # of a terminal
+# Texts that may hold a comma stand last.
 COLUMNS = [
-    "figure", "comparison", "question", "verdict", "reference", "points", "chi^2",
-    "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
-    "rms [axis units]", "max [axis units]", "unit", "curve", "model", "found", "stated", "allowed",
-    "regression", "note", "reason",
+    "figure", "comparison", "group", "verdict", "why", "points", "rms", "max", "unit",
+    "chi^2", "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
+    "found", "stated", "column", "entry", "paper", "reference", "model",
+    "curve", "says", "allowed", "bounds", "note", "reason",
 ]  # fmt: skip
-LEDGER = "ledger: "  # a note that begins so names an entry of the ledger
 
 
 class Verdict(StrEnum):
-    """The outcome of one comparison, worst first; only WRONG and DIVERGES fail a run.
+    """What a comparison says, worst first; only FAILS fails a run.
 
-    RIGHT and WRONG answer the question whether our curve is solved right, which our own second
-    codes and laws decide; AGREES and DIVERGES are kept for the paper and for others. UNCHANGED is
-    the verdict of a check against an earlier result of this repository, or against points that the
-    curve was fitted to. It guards against accidents and is evidence of nothing. INCONCLUSIVE does
-    not count as evidence either: published points agree with the curve, but would also agree if
-    they lay `judging.verdicts.VISIBLE_SHIFT` sigmas beside it. A known difference is EXPLAINED; or
-    its cause is not known; or it is UNTESTED, because the reference does not state how much its
-    values scatter.
-
-    >>> print(Verdict.EXPLAINED)
-    explained difference
+    DIFFERS is a known difference that has kept its bounds, and `Why` says what is known of it.
+    CANNOT_TELL is no evidence: published points agree with the curve, but would also agree if they
+    all lay `judging.verdicts.VISIBLE_SHIFT` sigmas beside it. PASSED is a check of our solver by
+    our own second codes, by 40 digits or by a law; such a check never agrees with anything.
     """
 
-    WRONG = "wrong"
-    DIVERGES = "diverges"
-    UNEXPLAINED = "unexplained difference"
-    UNTESTED = "untested difference"
-    EXPLAINED = "explained difference"
-    AWAITED = "awaited"
-    INCONCLUSIVE = "inconclusive"
+    FAILS = "FAILS"
+    DIFFERS = "differs"
+    CANNOT_TELL = "cannot tell"
+    NOT_COMPARED = "not compared"
     AGREES = "agrees"
-    RIGHT = "right"
-    UNCHANGED = "as before"
-
-    @property
-    def fails(self) -> bool:
-        """Whether it fails a run."""
-        return self in (Verdict.WRONG, Verdict.DIVERGES)
-
-    @property
-    def differs(self) -> bool:
-        """Whether it is that of a known difference."""
-        return self in (Verdict.UNEXPLAINED, Verdict.UNTESTED, Verdict.EXPLAINED)
+    PASSED = "passed"
 
 
-class Question(StrEnum):
-    """The question that a comparison answers.
+class Why(StrEnum):
+    """What is known of a difference, or why there is no comparison."""
 
-    SOLVED: is the curve that of our model? PRINTED: do the model and the paper state the same?
-    OTHERS: what do measurements and other authors find?
-    """
-
-    SOLVED = "solved right"
-    PRINTED = "as printed"
-    OTHERS = "beside others"
-
-    @property
-    def failed(self) -> Verdict:
-        """The verdict of a comparison that fails."""
-        return Verdict.WRONG if self == Question.SOLVED else Verdict.DIVERGES
+    UNKNOWN = "cause unknown"
+    UNPUBLISHED = "scatter not published"
+    KNOWN = "cause known"
+    AWAITED = "points awaited"
+    SETTINGS = "other settings"
 
 
-def fails(row: Row) -> bool:
-    """Whether a row fails a run."""
-    return Verdict(row["verdict"]).fails
+class Group(StrEnum):
+    """With what a curve is compared: statements of the paper, others, or our own second codes."""
+
+    PAPER = "paper"
+    OTHERS = "others"
+    SOLVER = "solver checked"
 
 
 def gather(paths: Iterable[str]) -> list[Row]:
@@ -81,48 +58,68 @@ def gather(paths: Iterable[str]) -> list[Row]:
     return [row for path in paths for row in tables.read_rows(path, COLUMNS)]
 
 
-def why(row: Row) -> str:
-    """Why a row fails: its bound, or with a documented difference that it was to stay as before."""
-    found, bound = measured(row), row["allowed"]
-    if row["regression"]:
-        bound = f"a difference, and as before {row['regression']}"
+def outcome(row: Row) -> str:
+    """The verdict of a row, and why.
+
+    >>> outcome({"verdict": "differs", "why": "cause unknown"})
+    'differs, cause unknown'
+    """
+    return ", ".join(part for part in (row["verdict"], row["why"]) if part)
+
+
+def measured(row: Row) -> str:
+    """How large the distance of a row is, in the unit of its axis, and of how many points."""
+    if row["found"]:
+        return f"{row['found']}, stated {row['stated']}" if row["stated"] else row["found"]
+    if not row["points"]:
+        return ""
+    size = f"rms {row['rms']}, max {row['max']} {row['unit']}".removesuffix(" 1")
+    sigmas = f" ({row['rms [sigma]']} sigma)" if row["p"] else ""
+    count = f"{row['points']} point" + ("" if row["points"] == "1" else "s")
+    return f"{size.strip()}{sigmas}; {count}"
+
+
+def chance(row: Row) -> str:
+    """The test of published points; it says so where their sigma itself is an estimate.
+
+    >>> row = {"chi^2": "242", "degrees of freedom": "5", "degrees of sigma": "4", "p": "0.0011"}
+    >>> chance(row)
+    'F test, as sigma is estimated from 4 values: p = 0.0011'
+    """
+    if not row["p"]:
+        return ""
+    if row["degrees of sigma"]:
+        values = f"{row['degrees of sigma']} values"
+        return f"F test, as sigma is estimated from {values}: p = {row['p']}"
+    return f"chi^2 {row['chi^2']} of {row['degrees of freedom']} points: p = {row['p']}"
+
+
+def problem(row: Row) -> str:
+    """Why a row fails: its bound, or with a known difference that it was to stay as it was."""
+    bound = f"a known difference with {row['bounds']}" if row["bounds"] else row["allowed"]
+    found = "; ".join(part for part in (measured(row), chance(row)) if part)
     limits = f"{found}; allowed is {bound}" if found else ""
     return ": ".join(part for part in (row["note"], limits) if part)
 
 
 def text(rows: Sequence[Row]) -> str:
     """The rows of one figure for a terminal."""
-    from tabulate import tabulate  # no job needs it
+    told = (
+        (
+            row["verdict"],
+            row["comparison"],
+            [measured(row), row["reference"], row["why"], row["entry"]],
+        )
+        for row in rows
+    )
+    return "\n".join(itertools.chain.from_iterable(itertools.starmap(lines, told)))
 
-    cells = [[row["comparison"], measured(row), row["verdict"]] for row in rows]
-    table = tabulate(cells, ["comparison", "measured", "verdict"], disable_numparse=True)
-    return "\n".join(line.rstrip() for line in table.splitlines())
 
+def lines(verdict: str, name: str, parts: Iterable[str]) -> list[str]:
+    """A verdict, and of whom or what it says what, in lines for a terminal of 80 columns.
 
-def counts(rows: Sequence[Row]) -> str:
-    """How many rows have each verdict, in one line for each question.
-
-    >>> print(counts([{"question": "as printed", "verdict": "agrees"}]))
-    as printed: 1 agrees
+    >>> lines("agrees", "Maw 1976", ["4 points", ""])
+    [' agrees       Maw 1976: 4 points']
     """
-    numbers = Counter((row["question"], row["verdict"]) for row in rows)
-    lines = []
-    for question in Question:
-        parts = [
-            f"{numbers[question, verdict]} {verdict.removesuffix(' difference')}"
-            for verdict in Verdict
-            if numbers[question, verdict]
-        ]
-        lines += [f"{question}: {', '.join(parts)}"] if parts else []
-    return "\n".join(lines)
-
-
-def measured(row: Row) -> str:
-    """How large the distance of a row is."""
-    if row["found"]:
-        return f"{row['found']} (stated {row['stated']})"
-    if row["p"]:
-        return f"chi^2 {row['chi^2']} of {row['degrees of freedom']}, p = {row['p']}"
-    if row["points"] and row["question"] == Question.PRINTED:  # sigma is that of a printed formula
-        return f"rms {row['rms [axis units]']}, max {row['max [axis units]']} {row['unit']}"
-    return f"rms {row['rms [sigma]']}, max {row['max [sigma]']} sigma" if row["points"] else ""
+    told = f" {verdict:<12} {name}: {'; '.join(part for part in parts if part)}"
+    return textwrap.wrap(told, WIDTH, subsequent_indent=" " * 14, break_on_hyphens=False)

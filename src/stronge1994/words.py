@@ -61,6 +61,16 @@ def unit(name: str) -> str:
     return f" {written}" if written not in ("", "°") else written
 
 
+def with_units(text: str) -> str:
+    r"""A text in which units behind numbers are formulas.
+
+    >>> with_units("13 points, rms 0.17 mu v2(0); ours 5 deg")
+    '13 points, rms 0.17 $\\mu v_2(0)$; ours 5°'
+    """
+    names = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
+    return re.sub(rf"(?<=\d) ({names})(?=$|[ ;,:)])", lambda found: unit(found[1]), text)
+
+
 def figure(name: str) -> str:
     """Name of a figure.
 

@@ -18,7 +18,7 @@ from stronge1994.judging.distances import (
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.verdicts import judge
 from stronge1994.reference_data import Fact, Series
-from stronge1994.verdict_table import COLUMNS, Verdict
+from stronge1994.verdict_table import COLUMNS, Verdict, Why
 
 AXIS = {"column": "x", "unit": "s", "sigma": 1.0, "range": [0.0, 1.0]}
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
@@ -65,56 +65,53 @@ def test_facts():
         assert np.isfinite(found).tolist() == holds
 
 
-@pytest.mark.parametrize("known", ["", "explained", "unexplained", "untested"])
-@pytest.mark.parametrize("limit", [{}, {"limit": 0.25}, {"limit": 2.0}])
-def test_verdicts(known, limit):
+@pytest.mark.parametrize("known", ["", Why.KNOWN])
+def test_verdicts(known):
     """A known difference must be there, and keep its sizes and its sign."""
     fact = Fact("maw1976/limit", "1", value=0.0, tolerance=1.0)
-    documented = {"documented": {"kind": known}} if known else {}
-    differs = Verdict(f"{known} difference") if known else Verdict.DIVERGES
+    differs = {"differs": {"why": known}} if known else {}
 
     def verdict(size, **bounds):
-        both = size * np.array([[-1.0, 0.5], [-3.0, 9.0]])  # in sigmas, and in units of the axis
-        measured = Measured("x", np.zeros(2), *both, ["y"] * 2)
-        own = documented | limit | {"regression": bounds}
-        return judge(Comparison("a", "landmark", "so", fact, **own), measured, 0.01).verdict
+        """Distances in sigmas and in units of the axis; the last one is of another axis."""
+        both = size * np.array([[-1.0, 0.5, 0.9], [-3.0, 1.5, 99.0]])
+        measured = Measured("x", np.zeros(3), *both, np.full(3, 3.0), ["y", "y", "z"])
+        own = Comparison("a", "landmark", "so", reference=fact, **differs, bounds=bounds)
+        return judge(own, measured, 0.01)[0]
 
-    most = limit.get("limit", 1.0)
-    for size in (most, -most):
-        assert verdict(size) == (Verdict.DIVERGES if known else Verdict.AGREES)
+    for size in (1.0, -1.0):
+        assert verdict(size) == (Verdict.FAILS if known else Verdict.AGREES)
         size *= 1.001
-        found = {"rms": abs(size) * 0.625**0.5, "max": abs(size), "difference": 3 * size}
+        found = {"rms": 3 * abs(size) * 0.625**0.5, "max": 3 * abs(size), "difference": 3 * size}
         bounds = {key: sorted([0.99 * value, 1.01 * value]) for key, value in found.items()}
-        assert verdict(size, **bounds) == differs
-        for key, value in found.items():
+        assert verdict(size, **bounds) == (Verdict.DIFFERS if known else Verdict.FAILS)
+        for key, value in found.items() if known else ():
             for low, high in ((0.9, 0.99), (1.01, 1.1), (-1.1, -0.9)):
                 wrong = bounds | {key: sorted([low * value, high * value])}
-                assert verdict(size, **wrong) == Verdict.DIVERGES
+                assert verdict(size, **wrong) == Verdict.FAILS
 
 
 @pytest.mark.parametrize("of_sigma", [None, 4, 40])
 @pytest.mark.parametrize("number", [1, 5, 17])
 @pytest.mark.parametrize("parameter", [0.0, 1.0])
-def test_points_that_fit_a_wrong_curve_too_are_inconclusive(number, of_sigma, parameter):
+def test_points_that_fit_a_wrong_curve_too_cannot_tell(number, of_sigma, parameter):
     """Of points that all lie as far beside the curve: two sigmas farther must be too far."""
     known = Series("digitised", AXIS, AXIS, sigma_values=of_sigma)
     shifts = parameter * np.ones((1, number))  # an uncertain parameter moves all points
     # Where p is 0.01. A sigma that very many values gave is as good as known.
     far = np.sqrt(stats.f.isf(0.01, number, of_sigma or 1e9) * (1 + parameter * number))
 
-    def verdict_at(sigmas, reference=known, **entry):
-        numbers = np.zeros(number), np.full(number, sigmas), np.zeros(number)
-        measured = Measured("x", *numbers, ["y"] * number, shifts)
-        own = Comparison("a", "distance", "so", reference, **entry)
-        return judge(own, measured, 0.01).verdict
+    def verdict_at(sigmas, reference=known):
+        numbers = np.zeros(number), np.full(number, sigmas), *np.zeros((2, number))
+        measured = Measured("x", *numbers, ["y"] * number, shifts=shifts)
+        return judge(Comparison("a", "distance", "so", reference=reference), measured, 0.01)[0]
 
     for sigmas in (-1.0, -0.5, 0.0, 0.5, 1.0, 0.999 * far, -0.999 * far, 1.001 * far, -1.001 * far):
-        expected = [Verdict.DIVERGES] * 2
+        expected = Verdict.FAILS
         if abs(sigmas) < far:
             noticed = far < 2.0 - abs(sigmas)
-            expected = [Verdict.AGREES if noticed else Verdict.INCONCLUSIVE, Verdict.UNCHANGED]
-        assert [verdict_at(sigmas), verdict_at(sigmas, fitted=True)] == expected
-    for size, verdict in ((1.0, Verdict.RIGHT), (1.001, Verdict.WRONG)):
+            expected = Verdict.AGREES if noticed else Verdict.CANNOT_TELL
+        assert verdict_at(sigmas) == expected
+    for size, verdict in ((1.0, Verdict.PASSED), (1.001, Verdict.FAILS)):
         computed = Series("computed", AXIS, AXIS)
         assert {verdict_at(size, computed), verdict_at(-size, None)} == {verdict}
 
@@ -166,7 +163,7 @@ def test_a_comparison_is_of_the_points_that_it_names(entry, chosen, axis, tmp_pa
     groups = {"mass_ratio": 3.0, "stiffness_ratio": 0.5, "restitution": 0.5, "friction": 0.2}
     both = columns | {"column": axis}, columns | {"column": "row"}
     series = Series("computed", *both, str(path), labels=list(labels), parameters=groups)
-    comparison = Comparison("a", "distance", "so", series, **entry)
+    comparison = Comparison("a", "distance", "so", reference=series, **entry)
     assert comparison.selected_points(series)[0]["row"].tolist() == chosen
 
 
@@ -217,7 +214,8 @@ def test_a_point_selects_its_curve_by_its_labels_unless_the_comparison_does(tmp_
     for metric in ("distance", "vertices"):
         for curve, distances in (({}, [0, 0, 0, 0]), ({"model": "printed"}, [-2, None, 0, 0])):
             points = {"variant": ""} if curve else {}
-            found = measure(Comparison("a", metric, "so", series, curve, points), curves)
+            own = Comparison("a", metric, "so", reference=series, curve=curve, points=points)
+            found = measure(own, curves)
             assert found.sigmas.tolist() == [gap for gap in distances if gap is not None]
     for curve, problem in (
         ({"model": "printed"}, "no curve has variant = rubber, e = 0.5, model"),
@@ -230,29 +228,36 @@ def test_a_point_selects_its_curve_by_its_labels_unless_the_comparison_does(tmp_
     ):
         series = Series("computed", AXIS, y, str(path), labels=["variant", "e"])
         with pytest.raises(ValueError, match=problem):
-            measure(Comparison("a", metric, "so", series, curve), curves)
+            measure(Comparison("a", metric, "so", reference=series, curve=curve), curves)
 
 
-# Comparison, verdict, and the cells from the number of points to what is allowed.
+# Comparison, and the cells from the verdict to what was stated, as far as a row has them.
 CELLS = """
-law,right,3,,,,,0.5,0.5,0.5,0.5,,a,a,,,max <= 2
-pair,wrong,3,,,,,1.5e+12,1.5e+12,1.5,1.5,,a,a,,,max <= 1
-fact,explained difference,1,,,,,2,2,0.5,0.5,N,a,a,0.5,1 N,max <= 1
-sign,diverges,1,,,,,inf,inf,0.5,0.5,1,a,a,0.5,< 0,max <= 1
-points,inconclusive,3,10.8,3,4,0.12,2.83,4,1.41,2,N,a,a,,,ALLOWED
-same,diverges,3,10.8,3,4,0.12,2.83,4,1.41,2,N,a,a,,,ALLOWED
-later,awaited,,,,,,,,,,,a,a,,,
-both,wrong,4,,,,,3.16,4,1.58,2,,a,a,,,max <= 1
-none,wrong,,,,,,,,,,,a,a,,,
-""".replace("ALLOWED", "p > 0.01; the model may be off by x 0 s, y 0.4 N")
+law,passed,,3,0.5,0.5,N,,,,,0.25,0.25,,
+pair,FAILS,,3,1.5,1.5,N,,,,,1.5e+12,1.5e+12,,
+span,passed,,3,0.5,0.5,N,,,,,0.5,0.5,0.5 to 0.5,
+fact,differs,cause known,1,0.5,0.5,N,,,,,2,2,0.5,1 N
+sign,FAILS,,1,0.5,0.5,N,,,,,inf,inf,0.5,< 0
+points,cannot tell,,3,1.41,2,N,10.8,3,4,0.12,2.83,4,,
+same,FAILS,,3,1.41,2,N,10.8,3,4,0.12,2.83,4,,
+later,not compared,points awaited,,,,,,,,,,,,
+both,FAILS,,4,1.41,2,N,,,,,3.16,4,,
+other,not compared,other settings,,,,,,,,,,,,
+none,FAILS,,,,,,,,,,,,,
+"""
 NOTES = {
     "pair": "largest for y [N] at x [s] = 0",
-    "fact": "ledger: eq-1",
-    "same": "ledger: eq-1; largest for y [N] of a at x [s] = 1",
+    "same": "largest for y [N] of a at x [s] = 1",
     "later": "Fig. 1",
+    "other": "the reference is for e 0.5, this run has 0.4, 0.6",
     "both": "largest for y [N] of a at x [s] = 1",
     "none": "no such column: z; there are curve, model, variant, x [s], y [N], v [m], y_sigma [N]",
 }
+ALLOWED = {
+    "law": "max <= 2 N", "pair": "max <= 1e-12 N", "span": "0 to 2", "fact": "max <= 0.25 N",
+    "sign": "< 0", "points": "p > 0.01; the model may be off by x 0 s, y 0.4 N",
+    "both": "max <= 0.5 N",
+}  # fmt: skip
 
 
 def test_a_row_has_what_was_measured(tmp_path):
@@ -278,34 +283,42 @@ def test_a_row_has_what_was_measured(tmp_path):
         "they/points": series,
         "they/both": series | {"kind": "computed", "y": [axes["y"], axes["v"]]},
         "they/later": series | {"kind": "awaited", "figure": "Fig. 1"},
+        "they/other": series | {"settings": {"e": 0.5, "mu": 1}},
     }
     landmark = {"kind": "value", "x": "x [s]", "y": "y [N]", "at": 1}
     value = {"metric": "landmark", "landmark": landmark}
-    known = {"documented": {"as": "explained", "entry": "eq-1"}}
-    fact = {"reference": "they/fact", "regression": {"difference": [-0.6, -0.4]}}
+    known = {"differs": {"why": "cause known", "entry": "eq-1", "paper": "wrong"}}
+    fact = {"reference": "they/fact", "bounds": {"difference": [-0.6, -0.4]}}
     points = {"metric": "distance", "reference": "they/points", "allowance": {"x": 0.0, "y": 0.4}}
     entries = {
         "law": {"metric": "small", "columns": ["y [N]"], "limit": 2.0},
-        "pair": {"metric": "small", "columns": ["y [N]", "v [m]"]},
+        "pair": {"metric": "small", "columns": ["y [N]", "v [m]"], "limit": 1e-12},
+        "span": {"metric": "range", "columns": ["y [N]"], "range": [0.0, 2.0]},
         "fact": fact | value | known,
         "sign": {"reference": "they/sign"} | value,
         "points": points,
-        "same": points | known | {"regression": {"rms": [2, 3]}},
+        "same": points | known | {"bounds": {"rms": [2, 3]}},
         "later": points | {"reference": "they/later"},
         "both": points | {"reference": "they/both"},
+        "other": points | {"reference": "they/other"},
         "none": {"metric": "small", "columns": ["z"]},
     }
     own = {"curve": {"model": "a"}, "reason": "so"}
     entries = {name: entry | own for name, entry in entries.items()}
-    rows = compare("fig0", path, entries, references, 0.01)
-    cells = [[f"{row[key]}" for key in ("comparison", "verdict", *COLUMNS[5:-3])] for row in rows]
+    settings = {"e": [0.4, 0.6], "mu": [1, 2]}
+    rows = compare("fig0", path, entries, references, 0.01, settings)
+    cells = [[f"{row[key]}" for key in ("comparison", *COLUMNS[3:17])] for row in rows]
     assert [",".join(own) for own in cells] == CELLS.split("\n")[1:-1]
     assert {row["comparison"]: row["note"] for row in rows if row["note"]} == NOTES
-    assert rows[2]["regression"] == "-0.6 <= difference <= -0.4"
-    printed = rows[4] | {"question": "as printed", "p": ""}
-    assert verdict_table.measured(printed) == "rms 1.41, max 2 N"
-    changed = "chi^2 10.8 of 3, p = 0.12; allowed is a difference, and as before 2 <= rms <= 3"
-    assert verdict_table.why(rows[5]) == f"{NOTES['same']}: {changed}"
+    by_name = {row["comparison"]: row for row in rows}
+    assert [name for name, row in by_name.items() if row["paper"]] == ["fact"]  # not what FAILS
+    assert {name: by_name[name]["allowed"] for name in ALLOWED} == ALLOWED
+    assert by_name["fact"]["bounds"] == "-0.6 <= difference <= -0.4 N"
+    measured = "rms 1.41, max 2 N (2.83 sigma); 3 points"
+    assert verdict_table.measured(by_name["points"]) == measured
+    changed = "p = 0.12; allowed is a known difference with 2 <= rms <= 3 N"
+    said = verdict_table.problem(by_name["same"])
+    assert said.startswith(f"{NOTES['same']}: {measured}; F test") and said.endswith(changed)
     write(rows, tmp_path / "verdicts.csv", tmp_path / "residuals.csv")
     residuals = pd.read_csv(tmp_path / "residuals.csv").set_index("comparison")
     assert residuals.loc[["fact"], "quantity"].tolist() == ["y [N]"]
@@ -314,4 +327,4 @@ def test_a_row_has_what_was_measured(tmp_path):
     for wrong in (np.inf, "nan", "a word"):
         table.astype(object).replace({"y [N]": {0.5: wrong}}).to_csv(path, index=False)
         with pytest.raises(ValueError, match="allowed are finite numbers"):
-            compare("fig0", path, entries, references, 0.01)
+            compare("fig0", path, entries, references, 0.01, settings)

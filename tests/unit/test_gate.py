@@ -7,9 +7,8 @@ from stronge1994.ledger import outcome
 
 VERDICT = {
     **dict.fromkeys(verdict_table.COLUMNS, ""),
-    "figure": "fig6", "comparison": "fig6-rebound", "question": "beside others",
-    "verdict": "agrees", "reference": "a/b", "points": 5, "rms [sigma]": 0.1, "max [sigma]": 0.2,
-    "rms [axis units]": 0.01, "max [axis units]": 0.02, "unit": "1", "allowed": "max <= 1",
+    "figure": "fig6", "comparison": "fig6-rebound", "group": "others", "verdict": "agrees",
+    "reference": "a/b", "points": 5, "rms": 0.1, "max": 0.2, "unit": "N", "allowed": "max <= 1 N",
 }  # fmt: skip
 ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {"entry": "eq-25", "verdict": "wrong", "holds": "yes"}
 
@@ -18,8 +17,11 @@ ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {"entry": "eq-25", "verdict": "wron
     ("changes", "fault"),
     [
         (({}, {}), None),
-        (({"verdict": "wrong"}, {}), "wrong: fig6-rebound: rms 0.1, max 0.2 sigma; allowed is max"),
-        (({"verdict": "diverges", "note": "oh"}, {}), "diverges: fig6-rebound: oh: rms 0.1"),
+        (
+            ({"verdict": "FAILS"}, {}),
+            "FAILS: fig6-rebound: rms 0.1, max 0.2 N; 5 points; allowed is",
+        ),
+        (({"verdict": "FAILS", "note": "oh"}, {}), "FAILS: fig6-rebound: oh: rms 0.1"),
         (({"comparison": "fig6-other"}, {}), "missing: fig6-rebound"),
         (({}, {"holds": "no", "problem": "oh"}), "no longer holds: eq-25: oh"),
         (({}, {"entry": "eq-26"}), "missing: eq-25"),
@@ -38,21 +40,28 @@ def words(tmp_path, monkeypatch):
     (tmp_path / "results").mkdir()
     tables.write_rows(gate.LEDGER, [ENTRY], outcome.COLUMNS)
 
-    def told(verdict="agrees", judged=2, failed=None, passed=(), config=(), whole=True):
-        rows = [VERDICT | {"verdict": verdict, "comparison": f"row-{i}"} for i in range(10)]
+    def told(verdict="agrees", judged=2, failed=None, passed=(), config=(), whole=True, **cells):
+        cells |= {"verdict": verdict}
+        rows = [VERDICT | cells | {"comparison": f"row-{i}"} for i in range(10)]
         for i in range(2):
             tables.write_rows(f"{i}.csv", rows[5 * i :][:5], verdict_table.COLUMNS)
         names, paths = [row["comparison"] for row in rows], [f"{i}.csv" for i in range(judged)]
         logs, stopped = {job: f"{job}.log" for job in failed or ()}, failed is not None
         entries = ["eq-25"] if whole else []
-        return gate.summary(paths, names[: 5 * judged], entries, logs, passed, stopped, config)
+        rows = names[: 5 * judged], entries, {"fig6": "rebound"}
+        return gate.summary(paths, *rows, logs, passed, stopped, config)
 
     return told
 
 
 def test_a_passed_run_says_where_to_look_and_what_next(words):
     said = words(passed=["all"])
-    assert "beside others: 10 agrees" in said and "1 wrong" in said and "PASSED." in said
+    assert (
+        "\n agrees       A: b, 50 points, rms 0.1 N\n" in said
+        and "sentences of the paper: 1 wrong; 0 no" in said
+    )
+    assert "PASSED: nothing has changed, 11 checks hold. Printed curves: not compared." in said
+    assert "one of 0 known differences leaves its bounds, or if one of 1\nverdicts" in said
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in said
     said = words(passed=["paper"], judged=1, whole=False)
@@ -60,12 +69,23 @@ def test_a_passed_run_says_where_to_look_and_what_next(words):
 
 
 def test_a_failed_run_names_its_rows_last_and_repeats_the_config(words):
-    said = words("diverges", config=["a=1", "figures={fig6: {restitution: [0, 1]}}"])
+    said = words("FAILS", config=["a=1", "figures={fig6: {restitution: [0, 1]}}"])
     assert "PASSED" not in said and "Play" not in said
     assert "figures --config a=1 'figures={fig6: {restitution: [0, 1]}}'" in said
     last = said.strip().splitlines()[-gate.MOST_FAULTS - 2 :]
-    assert last[0] == "FAILED. Reasons: 10" and last[1].startswith("diverges: row-0: rms 0.1")
+    assert last[0] == "FAILED. Reasons: 10" and last[1].startswith("FAILS: row-0: rms 0.1")
     assert last[-1].startswith("  and 2 more: results/")
+
+
+def test_a_run_with_other_settings_is_not_judged_and_says_how_to_draw(words):
+    """It accuses nobody: the reference is for other settings."""
+    note = "the reference is for mu 0.5, this run has 0.4"
+    cells = {"why": "other settings", "note": note}
+    said = words("not compared", failed=[], config=["mu=0.4"], **cells)
+    last = " ".join(said.split("NOT JUDGED: ")[1].split())
+    assert last.startswith("the figures are drawn, but 10 comparisons cannot be made with these ")
+    assert f"({note}); to draw" in last and last.endswith("2 figures --config mu=0.4")
+    assert "FAIL" not in said and "PASSED" not in said
 
 
 def test_a_run_that_stopped_names_its_jobs_and_what_was_judged(words):

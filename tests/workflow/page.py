@@ -1,6 +1,15 @@
 """A page of a run as its parts."""
 
+import re
 from html.parser import HTMLParser
+
+WITHOUT_SENTENCES = re.compile(r"<(script|style|code|pre|svg)\b.*?</\1>", flags=re.S)
+IN_A_SENTENCE = re.compile(r"</?(?:a|abbr|b|em|i|math|m[inor]\w*|span|strong|su[bp])\b[^>]*>")
+
+
+def seen(text):
+    """Words of a piece of HTML with the white space that a reader sees between them."""
+    return re.sub(r"<[^>]+>", " ", IN_A_SENTENCE.sub("", WITHOUT_SENTENCES.sub(" ", text)))
 
 
 def flat(text):

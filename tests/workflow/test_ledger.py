@@ -15,12 +15,13 @@ from markupsafe import escape
 
 from planarimpact import continuum, lumped, noncollinear
 from stronge1994 import tables
+from stronge1994.formulas import mathematical
 from stronge1994.ledger import checking, contact, finding, outcome
 from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
 from stronge1994.printed import dynamics, slip
 from tests.workflow.page import flat
-from tests.workflow.project import ROOT, ledger
+from tests.workflow.project import ROOT, config, ledger
 
 ENTRIES = ledger()
 EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
@@ -182,10 +183,11 @@ def test_the_head_of_the_page_names_all_that_is_wrong_by_cause(rows, tmp_path):
     assert order == sorted(order, key=list(outcome.GRADES).index)
 
 
-ARTICLE = """its where wrong sign or misprint in two continua: stands no longer holds eq The paper
-says: its says. its problem Instead: its correction. Derivation: its derivation. Cause: its because.
-Where it holds: its range. Reading: its reading. Why not testable: its why. Test: its test Found:
-its found. The its kind is right if this is its confirms. The verdict holds while this lies from its
+ARTICLE = """its where wrong sign or misprint in two continua: stands no longer holds eq its problem
+Printed: its says. Corrected: its correction. Derivation, cause, where it holds, reading, why not
+testable, test, in two continua Derivation: its derivation. Cause: its because. Where it holds: its
+range. Reading: its reading. Why not testable: its why. Test: its test Found: its found. The its
+kind is right if this is its confirms. The verdict holds while this lies from its
 between. The corrected formula is off by its corrected. In two continua: its nature. Test: its
 nature_test Found: its nature_found. The its kind is true with a loss if its number is its
 nature_true_if. The viscous and the plastic loss are judged."""
@@ -195,9 +197,9 @@ def test_the_page_has_every_entry_and_all_columns_of_an_entry(first_run, rows, t
     page = (first_run[0] / "figures/ledger.html").read_text()
     assert re.findall('<article id="([^"]*)', page) == list(rows) == list(ENTRIES)
     row = {column: f"its {column}" for column in outcome.COLUMNS} | {"entry": "eq", "holds": "no"}
-    row |= {"verdict": "wrong", "grade": "sign or misprint", "in_nature": "stands"}
-    head, article = page_of([row], tmp_path).read_text().split('<article id="eq">')
-    assert flat(article.split("</article>")[0]) == flat(ARTICLE)
+    row |= {"verdict": "wrong", "grade": "sign or misprint", "in_nature": "stands", "only_if": ""}
+    head, article = page_of([row], tmp_path).read_text().split('<article id="eq"')
+    assert flat(article.partition(">")[2].split("</article>")[0]) == flat(ARTICLE)
     assert "nolongerholdseq" in flat(head) and flat("its says. eq wrong stands") in flat(head)
     # The impact that a link shows is the one of which its words tell.
     state = (
@@ -207,6 +209,52 @@ def test_the_page_has_every_entry_and_all_columns_of_an_entry(first_run, rows, t
     assert len(links) == sum("explorer" in entry for entry in ENTRIES.values()) > 9
     for angle, mu, e, words in links:
         assert flat("<a" + words).endswith(f"at{angle}°,μ={mu}ande={e}.")
+
+
+@pytest.fixture(scope="module")
+def articles(first_run):
+    """Entries of the page of a run: what is seen at once, and what is folded."""
+    page = (first_run[0] / "figures/ledger.html").read_text(encoding="utf-8")
+    found = re.findall(r'<article id="([^"]+)".*?>(.*?)<details>(.*?)</article>', page, flags=re.S)
+    return {name: parts for name, *parts in found}
+
+
+def test_printed_and_corrected_stand_side_by_side_where_the_paper_is_wrong(articles):
+    wrong = {name for name, entry in ENTRIES.items() if entry["verdict"] == "wrong"}
+    assert {name for name, (seen, _) in articles.items() if 'class="sides"' in seen} == wrong
+    for name in wrong:
+        sides = flat(articles[name][0].partition('class="sides">')[2])
+        stated = [flat(mathematical(ENTRIES[name][key])) for key in ("says", "correction")]
+        assert sides.startswith(f"Printed:{stated[0]}.Corrected:{stated[1].rstrip('.')}.")
+
+
+def test_what_is_right_only_under_a_condition_says_so_and_is_not_green(first_run, rows, articles):
+    only = {name: entry["only_if"] for name, entry in ENTRIES.items() if "only_if" in entry}
+    assert "eq-25" in only
+    for name, (seen, _) in articles.items():
+        assert ('class="mark confirmed"' in seen) == (
+            ENTRIES[name]["verdict"] == "confirmed" and name not in only
+        )
+        if name in only:
+            assert flat(f"right only if {mathematical(only[name])}") in flat(seen)
+    summary = " ".join(outcome.summary(list(rows.values())).split())
+    assert f"confirmed, {len(only)} of them only under a condition;" in summary
+    head = (first_run[0] / "figures/ledger.html").read_text(encoding="utf-8").split("<h2")[0]
+    assert f"Of the confirmed ones {len(only)} are right only under a condition" in head
+
+
+def test_symbols_are_explained_where_they_are_used_and_common_ones_once(first_run, articles):
+    for name, part, symbols in (
+        ("eq-25", 0, [r"$s$: direction of slip", "$t_3$: start of the slip"]),
+        ("eq-39", 0, [r"$\alpha = \Omega t/e + (\pi/2)(1 - 1/e)$: angle", "$g_1$: normal impulse"]),
+        ("eq-39", 1, [r"$\kappa$: normal stiffness"]),
+    ):
+        for symbol in symbols:
+            assert flat(mathematical(symbol)) in flat(articles[name][part])
+    head = (first_run[0] / "figures/ledger.html").read_text(encoding="utf-8").split("<h2")[0]
+    often = flat(mathematical(r"$\mu$: coefficient of friction"))
+    assert often in flat(head)
+    assert not any(often in flat(part) for parts in articles.values() for part in parts)
 
 
 def effect_of_stiffness():
@@ -346,3 +394,12 @@ def test_numbers_that_an_entry_quotes_are_found_in_another_way(name):
     found = compute()
     found = found if np.isscalar(found) else np.array(list(found))
     assert np.all(np.abs(found - quoted) <= within), found
+
+
+def test_a_figure_calls_the_paper_wrong_or_vague_as_the_ledger_does():
+    for name, entry in config()["comparisons"].items():
+        differs = entry.get("differs", {})
+        if "paper" in differs:
+            judged = ENTRIES[differs["entry"]]
+            is_vague = judged.get("grade") == "matter of judgement"
+            assert (judged["verdict"], differs["paper"] == "vague") == ("wrong", is_vague), name

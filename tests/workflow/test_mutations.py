@@ -24,7 +24,7 @@ from stronge1994.judging import compare
 from stronge1994.judging import rows as judging_rows
 from stronge1994.ledger import checking
 from stronge1994.settings import config as configuration
-from stronge1994.verdict_table import fails
+from stronge1994.verdict_table import Verdict
 from tests.workflow.project import ROOT, awaited, config, ledger
 
 TABLE = yaml.safe_load((ROOT / "tests/mutations.yaml").read_text(encoding="utf-8"))
@@ -172,8 +172,10 @@ def judged(inventory, monkeypatch):
         entries = {name: CONFIG["comparisons"][name] for name in names}
         references = figure_settings.references(CONFIG, inventory, figure)
         with np.errstate(over="ignore"):  # distances of the largest numbers of `stability`
-            rows = compare(figure, "", entries, references, CONFIG["significance"])
-        return {row["comparison"] for row in rows if fails(row) and row["points"]}
+            rows = compare(figure, "", entries, references, CONFIG["significance"], {})
+        return {
+            row["comparison"] for row in rows if row["verdict"] == Verdict.FAILS and row["points"]
+        }
 
     return failing
 

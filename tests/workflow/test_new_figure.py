@@ -20,7 +20,7 @@ def test_a_figure_of_the_readme_is_drawn_and_judged_alone(fresh):
     result = fresh.run("fig10")
     assert result.returncode == 0 and "No comparison fails." in result.stdout
     verdicts = tables.read_rows(fresh / "results/verdicts/fig10.csv")
-    assert {r["verdict"] for r in verdicts if r["comparison"] == "fig10-line"} == {"right"}
+    assert {r["verdict"] for r in verdicts if r["comparison"] == "fig10-line"} == {"passed"}
     assert (fresh / "figures/fig10.svg").stat().st_size > 1000
     # Nothing else has to name it: a whole run judges it too.
     assert "results/verdicts/fig10.csv" in fresh.run("--summary").stdout

@@ -18,8 +18,8 @@ import pytest
 import planarimpact
 from stronge1994.pages import interface
 from stronge1994.pages import site as write_site
-from tests.workflow.page import Page
-from tests.workflow.project import ROOT
+from tests.workflow.page import Page, seen
+from tests.workflow.project import ROOT, ledger, sources
 
 FOLDER = ROOT / "workflow/report"
 BAR = re.findall(r'^  \("(.+?)", ', (FOLDER / "site.html").read_text(encoding="utf-8"), flags=re.M)
@@ -189,6 +189,79 @@ def look(tab):
 def test_axe_finds_nothing_of_ours_and_no_page_is_wider_than_a_phone(figures, site, look, name):
     left = NOT_OURS if name == INTERFACE else ()
     assert look((site if left else figures) / name, left) == {"light": [], "dark": [], "phone": []}
+
+
+@pytest.mark.parametrize("name", ["ledger.html", "sources.html"])
+def test_no_sentence_runs_into_the_next(figures, name):
+    text = seen((figures / name).read_text(encoding="utf-8"))
+    assert re.findall(r"\S*[a-z)][.:;,][A-Z][a-z]\S*", text) == []
+
+
+SHOWN = """[...document.querySelectorAll('[data-kind]')].filter((part) => part.checkVisibility())
+.map((part) => part.id)"""
+
+
+def test_the_filter_of_the_ledger_works_by_keyboard_on_a_phone(figures, tab):
+    """It says how many entries are shown, and hides none to which an address leads."""
+    tab.resize(390, 900, mobile=True)
+    tab.open((figures / "ledger.html").as_uri())
+    count = tab.page.locator("output[name=shown]")
+    every = tab.evaluate(SHOWN)
+    assert every == list(ledger())
+    tab.page.focus("[name=words]")
+    tab.press("Tab")
+    tab.page.keyboard.type("wrong")
+    wrong = [name for name in every if ledger()[name]["verdict"] == "wrong"]
+    assert tab.evaluate(SHOWN) == wrong
+    tab.page.select_option("[name=page]", "443")
+    of_page = [name for name in wrong if "443" in ledger()[name]["where"]]
+    assert tab.evaluate(SHOWN) == of_page
+    tab.page.fill("[name=words]", "Three PHASES")
+    assert tab.evaluate(SHOWN) == ["three-sequences"]
+    assert count.text_content() == f"1 of {len(every)} entries shown"
+    for _ in range(2):  # and again after a filter has hidden it
+        tab.evaluate("location.hash = 'eq-25'")
+        tab.page.wait_for_selector("#eq-25 details[open]")
+        assert tab.evaluate(SHOWN) == ["eq-25", "three-sequences"]
+        assert (
+            0 <= tab.evaluate("document.querySelector('#eq-25').getBoundingClientRect().top") < 900
+        )
+        tab.page.fill("[name=words]", "three phases")
+        assert tab.evaluate(SHOWN) == ["three-sequences"]
+    tab.open("about:blank")
+    tab.open(f"{(figures / 'ledger.html').as_uri()}#eq-25")
+    assert tab.evaluate(SHOWN) == every
+    tab.page.select_option("[name=equation]", "25")
+    assert tab.evaluate(SHOWN) == ["eq-25"]
+    assert tab.problems == []
+
+
+def test_sources_stand_in_the_order_of_their_kinds_and_are_filtered_by_them(figures, tab):
+    tab.resize(1440, 900)
+    tab.open((figures / "sources.html").as_uri())
+    series = {
+        f"{source}/{name}": entry.get("kind", "stated")
+        for source, stated in sources().items()
+        for kind in ("series", "facts")
+        for name, entry in stated.get(kind, {}).items()
+    }
+    assert set(tab.evaluate(SHOWN)) == set(series)
+    order = ["measured", "digitised", "stated", "computed", "awaited"]
+    names = [name.split("/")[0] for name in tab.evaluate(SHOWN)]
+    ranks = {
+        name: min(order.index(series[s]) for s in series if s.startswith(f"{name}/"))
+        for name in names
+    }
+    assert list(ranks.values()) == sorted(ranks.values())
+    for kind in order:
+        tab.page.select_option("[name=kind]", kind)
+        wanted = {name for name in series if series[name] == kind}
+        assert set(tab.evaluate(SHOWN)) == wanted
+        said = f"{len(wanted)} of {len(series)} series and facts shown"
+        assert tab.page.text_content("output[name=shown]") == said
+        headings = tab.page.locator("h3:visible").count()
+        assert headings == len({name.split("/")[0] for name in wanted})
+    assert tab.problems == []
 
 
 FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>

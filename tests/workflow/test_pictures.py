@@ -18,7 +18,7 @@ import planarimpact
 from stronge1994 import settings as figure_settings
 from stronge1994 import tables
 from stronge1994.figures.shared import drawing as drawings
-from stronge1994.figures.shared.drawing import house_style
+from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.settings import figures
 from tests.workflow.project import config, sources
 
@@ -167,6 +167,17 @@ def test_a_picture_is_the_one_that_was_looked_at(given, figure):
         # Rounding errors, which the figure on stability shows, differ from machine to machine.
         slack = 10 if figure == "stability" else 1
         assert numbers == pytest.approx(places, abs=slack), words
+
+
+def test_a_slide_has_only_the_entries_that_it_names(given, tmp_path):
+    """And each name is that of an entry, so none is lost when a label changes."""
+    curves, draw, _ = given("fig5")
+    stated, picture = figures.stated()["fig5"]["slide"], draw(curves)
+    slide.save(picture, **stated, light=tmp_path / "light.png", dark=tmp_path / "dark.png")
+    (panel,), (legend,) = picture.axes, picture.legends
+    _, labels = panel.get_legend_handles_labels()
+    assert [text.get_text() for text in legend.get_texts()] == labels
+    assert sorted(label.split(", $")[0] for label in labels) == sorted(stated["only"])
 
 
 def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, first_run):

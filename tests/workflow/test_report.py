@@ -19,7 +19,7 @@ from stronge1994.ledger import finding, outcome
 from stronge1994.names import MODELS
 from stronge1994.pages import note, which_model
 from stronge1994.pages import report as write_report
-from stronge1994.verdict_table import Verdict
+from stronge1994.verdict_table import Group, Verdict, Why
 from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat
 from tests.workflow.project import ROOT, config
@@ -83,7 +83,8 @@ def test_every_verdict_figure_and_source_is_there(pages, rows_of, inventory):
     page, text = Page(pages("report")), pages("sources")
     provenance = Page(text)
     stated_in = provenance.text
-    counts = Counter(row["verdict"] for row in rows_of("verdicts"))
+    others = [row for row in rows_of("verdicts") if row["group"] != Group.SOLVER]
+    counts = Counter(row["verdict"] for row in others)
     assert all(f"{verdict} {count} " in page.text for verdict, count in counts.items())
     assert {f"tables/curves/{figure}.csv" for figure in CONFIG["figures"]} <= set(page.links)
     for source, stated in inventory.items():
@@ -113,7 +114,7 @@ def test_a_figure_has_its_own_picture_verdicts_and_settings(first_run, pages, ro
     assert base64.b64encode(svg).decode() in shown
     assert all(kind == w for kind, w in re.findall(r'_(light|dark)\.png">(\w+)<', shown))
     mine = [row["comparison"] for row in rows_of("verdicts") if row["figure"] == name]
-    assert re.findall(r'<tr id="([^"]*)"', shown) == mine
+    assert sorted(re.findall(r'<tr id="([^"]*)"', shown)) == sorted(mine)
     told = pages("sources")
     told = told[told.index(f'<pre id="config-{name}"') :].split("</pre>")[0]
     comparisons = CONFIG["comparisons"].items()
@@ -149,9 +150,14 @@ BEHIND = {
     r" (?:µ v 2 \(0\) , root|for e from)": "rms$",
     " entries [^a]": "ledger.entries",
     " are confirmed": "ledger.confirmed$",
-    " our curve": "rows.right",
-    " differ and we know": "rows.explained",
-    " differ for": "rows.unexplained",
+    " comparisons with the paper": "rows.others$",
+    " of them agree": "rows.agrees",
+    " differ and we know": "rows.cause known",
+    " differ for": "rows.cause unknown",
+    " differ from points": "rows.scatter",
+    " times by our own": "rows.solver$",
+    " checks passed": "rows.solver.passed",
+    " differ as known": "rows.solver.differs",
     " wrong ?,": "ledger.wrong",
 }
 
@@ -162,7 +168,7 @@ def test_numbers_of_the_note_are_those_that_the_words_behind_them_mean(numbers):
         name: 4.0 for name in numbers if name.endswith(("failed", "spreads", "published.agrees"))
     }
     names, marks = list(numbers), {name: 3000.0 + i for i, name in enumerate(numbers)}
-    page = note.page(marks | spelt, [], shown, ROOT / "workflow/report/note.html")
+    page = note.page(marks | spelt, [], {}, shown, ROOT / "workflow/report/note.html")
     marked = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda m: f"«{names[int(m[1])]}»", Page(page).text)
     row_of_table = "pairs.*.chi2» «pairs.*.least» to «pairs.*.most» 4 «pairs.*.without polyurethane"
     row_of_table += ".chi2» «rubber.*.distance» «rubber.*.distance.small» «yielding.*.rms»"
@@ -178,10 +184,15 @@ def test_key_numbers_are_those_of_the_tables(numbers, rows_of, first_run, invent
     def curves(figure):
         return tables.read(first_run[0] / f"results/curves/{figure}.csv")
 
-    verdicts = Counter(row["verdict"] for row in rows_of("verdicts"))
-    for verdict in Verdict:
-        assert numbers[f"rows.{verdict}"] == verdicts[verdict]
-    assert numbers["rows.judged"] == verdicts.total() - verdicts["as before"]
+    of_solver = Counter(row["group"] == "solver checked" for row in rows_of("verdicts"))
+    assert (numbers["rows.solver"], numbers["rows.others"]) == (of_solver[True], of_solver[False])
+    for column, words in (("verdict", Verdict), ("why", Why)):
+        rows = Counter(
+            (row["group"] == "solver checked", row[column]) for row in rows_of("verdicts")
+        )
+        for word in words:
+            assert numbers[f"rows.{word}"] == rows[False, word]
+            assert numbers[f"rows.solver.{word}"] == rows[True, word]
     ledger = rows_of("ledger")
     counts = Counter(row[key] for row in ledger for key in ("verdict", "grade") if row[key])
     assert {name: numbers[f"ledger.{name}"] for name in counts} == counts
@@ -247,38 +258,49 @@ def test_the_note_s_farthest_pairs_are_so(numbers, first_run, inventory):
 
 # Rows of verdicts, all of whose cells differ, and what the report tells of them.
 FOUND = {"chi^2": "7", "degrees of freedom": "6", "degrees of sigma": "5", "p": "0.6"}
-KNOWN = {"regression": "1 <= rms <= 2", "note": "ledger: eq-25"}
-SAME = {"curve": "lumped", "allowed": "max <= 1", "reason": "it is so"}
-CELLS = {
-    ("far", "diverges", "beside others"): FOUND,
-    ("near", "agrees", "beside others"): {"points": "12", "rms [axis units]": "0.04"},
-    ("known", "explained difference", "as printed"): KNOWN,
-    ("stated", "agrees", "as printed"): {"found": "5", "stated": "7 deg"},
-    ("code", "right", "solved right"): {"max [axis units]": "0.5"},
-    ("later", "awaited", "beside others"): {"points": "", "reference": "cross2014/a"},
-    ("solved", "wrong", "solved right"): {"figure": "trade", "note": "<oh>"},
+KNOWN = {
+    "why": "cause known",
+    "bounds": "1 <= rms <= 2 N",
+    "entry": "eq-25",
+    "says": "Eq. 25,",
+    "paper": "wrong",
 }
+SAME = {"curve": "lumped", "allowed": "max <= 1 N", "reason": "it is so"}
+SAME |= {"reference": "maw1976/rebound", "rms [sigma]": "9"}
+CELLS = {
+    ("far", "FAILS", "others"): FOUND,
+    ("near", "agrees", "others"): {"points": "12", "rms": "0.04"},
+    ("known", "differs", "paper"): KNOWN,
+    ("stated", "agrees", "paper"): {
+        "found": "5", "stated": "7 deg", "unit": "deg", "says": "peak at",
+    },
+    ("code", "passed", "solver checked"): {"max": "0.5"},
+    ("later", "not compared", "others"): {
+        "points": "", "reference": "cross2014/a", "why": "points awaited",
+    },
+    ("solved", "FAILS", "solver checked"): {"figure": "trade", "note": "<oh>"},
+}  # fmt: skip
 VERDICTS = [
     dict.fromkeys(verdict_table.COLUMNS, "")
-    | {"figure": "fig6", "comparison": f"fig6-{name}", "question": question, "verdict": verdict}
+    | {"figure": "fig6", "comparison": f"fig6-{name}", "group": group, "verdict": verdict}
     | {**SIZES, **SAME, **cells}
-    for (name, verdict, question), cells in CELLS.items()
+    for (name, verdict, group), cells in CELLS.items()
 ]
 TOLD = """
-diverges beside others Far Maw 1976: rebound
-χ² 7 of 6, p = 0.6 (sigmas of 5) vertically rms 0.02 max ≤ 1 It is so.
-agrees beside others Near Maw 1976: rebound
-rms 2, max 3 sigma vertically rms 0.04 max ≤ 1 It is so.
-explained difference as printed Known Maw 1976: rebound
-rms 0.02, max 0.03 μv2(0) max ≤ 1 regression: 1 ≤ rms ≤ 2 Ledger: Eq. 25. It is so.
-agrees as printed Stated Maw 1976: rebound 5 (stated 7°) max ≤ 1 It is so.
-right solved right Code Maw 1976: rebound
-rms 2, max 3 sigma vertically rms 0.02 max ≤ 1 It is so.
-awaited beside others Later Cross 2014: a max ≤ 1 It is so."""
+FAILS Far Maw 1976: rebound rms 0.02, max 0.03 μv2(0) (9 sigma); 4 points
+F test, as sigma is estimated from 5 values: p = 0.6 max ≤ 1 N It is so.
+not compared points awaited Later Cross 2014: a max ≤ 1 N It is so.
+differs cause known Known Maw 1976: rebound rms 0.02, max 0.03 μv2(0); 4 points
+max ≤ 1 N not to fail: 1 ≤ rms ≤ 2 N Ledger: Eq. 25. It is so."""
+REST = """
+agrees Near Maw 1976: rebound rms 0.04, max 0.03 μv2(0); 12 points max ≤ 1 N It is so.
+agrees Stated Maw 1976: rebound 5, stated 7° max ≤ 1 N It is so.
+passed Code Maw 1976: rebound rms 0.02, max 0.5 μv2(0); 4 points max ≤ 1 N It is so."""
 ROWS = """
-Fig. 6 1 right, largest 0.5, 3 sigma 1 agrees; differs: Eq. 25, rms 0.02 μv2(0)
-diverges Maw 1976: 16 points, rms 0.036 μv2(0), 2 sigma Cross 2014
-| Fig. 6, known as printed explained: Eq. 25 rms 0.02, max 0.03 μv2(0) 1 ≤ rms ≤ 2
+Fig. 6 rebound not compared differs Eq. 25, 0.03 μv2(0); the paper is wrong
+agrees peak at 7°, model 5
+FAILS Maw 1976: rebound, 16 points, rms 0.036 μv2(0) not compared Cross 2014; points awaited
+| Fig. 6, known paper cause known: Eq. 25 rms 0.02, max 0.03 μv2(0); 4 points 1 ≤ rms ≤ 2 N
 | e = 0.8, plastic loss error up to 0.3 to 0.1 m, 0.05, 3 µs
 | by 0.5 µv2(0) (e = 0.8, plastic; 0.6 if
 | the wrong loss is an error of up to 0.4 µ"""
@@ -308,29 +330,28 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "n": {},
         "significance": CONFIG["significance"],
         "run": {"date": "Today", "commit": "abc"},
-        "faults": ["diverges: fig6-far: max 9"],
+        "shows": {"fig6": "rebound"},
+        "faults": ["FAILS: fig6-far: max 9"],
     }
     page = write_report.page(values, ROOT / "workflow/report/report.html")
     text = Page(page).text
-    assert (
-        "FAILED 2 comparisons fail. 1 of 2 verdicts on the paper no longer hold: Eq. 25 . "
-        "Today, commit abc Fig. 6, far diverges: max 9"
-    ) in text
+    assert "1 of 2 verdicts on the paper no longer hold: Eq. 25 . Today, commit abc" in text
+    assert "FAILED Reasons: 1, named" in text and "Fig. 6, far FAILS: max 9" in text
     assert "PASSED" not in text and "What we found" not in text
-    counts = "6 comparisons: 1 diverges, 2 agree, 1 explained difference, 1 right, 1 awaited"
-    table = page[page.index(f"<details open><summary>{counts[:14]}") :].split("</table>")[0]
-    assert counts in Page(table).text and '<tr id="fig6-far" class="diverges"' in table
-    assert flat(table).endswith("reason" + flat(TOLD))
+    first, rest = page[page.index('<h3 id="fig6">') :].split("</table>")[:2]
+    assert '<tr id="fig6-far" class="FAILS"' in first and flat(first).endswith(flat(TOLD))
+    assert "3 more comparisons: 2 agrees; solver checked: 1 passed" in Page(rest).text
+    assert flat(rest).endswith(flat(REST))
     assert all(flat(row) in flat(page) for row in ROWS.split("|"))
     assert "&lt;oh&gt;" in page
 
 
 def test_strips_show_points_by_their_verdicts():
-    others = {"question": "beside others", "found": "", "curve": "lumped", "reference": "a/b"}
+    others = {"group": "others", "found": "", "curve": "lumped", "reference": "a/b", "why": ""}
     verdicts = [
-        others | {"comparison": "low", "verdict": "diverges"},
+        others | {"comparison": "low", "verdict": "FAILS"},
         others | {"comparison": "high", "verdict": "agrees"},
-        others | {"comparison": "corner", "verdict": "wrong", "curve": "", "reference": "a/c"},
+        others | {"comparison": "corner", "verdict": "FAILS", "curve": "", "reference": "a/c"},
     ]
     points = {"low": [-1, -3], "high": [2, 0], "corner": [7]}
     residuals = pd.DataFrame(

@@ -138,6 +138,7 @@ def summary(stopped):
         list(tables.values()),
         rows_of(tables),
         ENTRIES if "all" in gates and gate.LEDGER in done else [],
+        {name: figures.stated()[name]["shows"] for name in PAPER},
         {f"{job.name} {' '.join(job.wildcards)}".strip(): f"{job.log}" for job in failed},
         {name for name, job in gates.items() if dag.finished(job) and not workflow.touch},
         stopped,

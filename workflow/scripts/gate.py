@@ -12,5 +12,8 @@ table = snakemake.input.get("ledger")
 ledger = tables.read_rows(table) if table else []
 verdicts = verdict_table.gather(snakemake.input.verdicts)
 faults = gate.faults(verdicts, ledger, snakemake.params.rows, snakemake.params.get("entries", []))
-if faults:
-    sys.exit(f"{len(faults)} rows of the tables fail or are missing: the end of the run names them")
+unmade = gate.unmade(verdicts)
+if faults or unmade:
+    rows = f"{len(faults)} rows of the tables fail or are missing"
+    others = f"{len(unmade)} comparisons cannot be made with these settings"
+    sys.exit(f"{rows}, {others}: the end of the run names them")

@@ -12,9 +12,11 @@ from planarimpact.common.arrays import Array
 from stronge1994 import reference_data, tables
 from stronge1994.reference_data import Axis, Fact, Series
 from stronge1994.tables import Table
-from stronge1994.verdict_table import Question, Verdict
+from stronge1994.verdict_table import Group, Why
 
 PAPER = "stronge1994"  # the source that has what the paper states
+# Parts of the axis of incidence, in order; the limits of the regimes divide it into these.
+REGIMES = ("initial stick", "slip and stick", "slip throughout")
 
 
 class Metric(StrEnum):
@@ -34,14 +36,6 @@ class Metric(StrEnum):
     CONTRACTION = "contraction"
 
 
-class Regime(StrEnum):
-    """A part of the axis of incidence; the limits of the regimes divide it into these, in order."""
-
-    STICK = "initial stick"
-    SLIP_STICK = "slip and stick"
-    SLIP = "slip throughout"
-
-
 @dataclass(frozen=True)
 class Landmark:
     """A landmark of a curve, see `judging.landmarks`; `x` and `y` are columns."""
@@ -54,16 +48,15 @@ class Landmark:
 
 @dataclass(frozen=True)
 class KnownDifference:
-    """What is known of a documented difference, and its cause: an entry of the ledger or a note."""
+    """What is known of a difference, and its cause: an entry of the ledger or a note.
 
-    kind: str
+    `paper` says of a statement of the paper whether it is wrong or vague.
+    """
+
+    why: Why
     entry: str = ""
     note: str = ""
-
-    @property
-    def verdict(self) -> Verdict:
-        """Verdict of a comparison with this difference."""
-        return Verdict(f"{self.kind} difference")
+    paper: str = ""
 
 
 @dataclass(frozen=True)
@@ -80,25 +73,28 @@ class Comparison:
 
     `curve` selects curves by their columns, see `tables.select`; empty, each point of the reference
     selects its own by its labels. Of the reference are compared only the points with these labels,
-    `points`, in the `regime`. A known difference has bounds of regression, which are `rms`, `max`,
-    `chi2` or `difference` about what was found, and say nothing on what is right.
+    `points`, in the `regime`. `says` is what the reference says, for readers. A comparison, like a
+    reference, may be for some `settings` of the figure alone. A known difference has `bounds` about
+    what was found, of its `rms`, `max` or `difference` in the unit of the axis. They guard against
+    changes, and say nothing on what is right.
     """
 
     name: str
     metric: Metric
     reason: str
+    says: str = ""
     reference: Series | Fact | None = None
     curve: dict[str, Any] = field(default_factory=dict)
     points: dict[str, Any] = field(default_factory=dict)
-    regime: Regime | None = None
+    regime: str = ""  # one of `REGIMES`
     allowance: Allowance | None = None
     landmark: Landmark | None = None
     columns: list[str] = field(default_factory=list)
     range: tuple[float, float] | None = None
-    limit: float = 1.0
-    fitted: bool = False
-    documented: KnownDifference | None = None
-    regression: dict[str, tuple[float, float]] = field(default_factory=dict)
+    limit: float = 1.0  # in the unit of the axis, of a law
+    settings: dict[str, Any] = field(default_factory=dict)
+    differs: KnownDifference | None = None
+    bounds: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -107,37 +103,50 @@ class Comparison:
         """A comparison from its entry in figure.yaml, and from source.yaml `{source/name: entry}`.
 
         >>> law = {"metric": "small", "columns": ["x [1]"], "reason": "a law"}
-        >>> Comparison.of("a", law, {}).question.value
-        'solved right'
+        >>> Comparison.of("a", law, {}).group.value
+        'solver checked'
         """
         own = {**entry, "name": name}
         if "reference" in entry:
             full = entry["reference"]
             own["reference"] = reference_data.of(full, references[full])
-        if "documented" in entry:
-            own["documented"] = {"kind": entry["documented"]["as"], **entry["documented"]}
         return cls(**own)
 
     @property
-    def is_published(self) -> bool:
-        """Whether the reference has points of nature."""
-        return isinstance(self.reference, Series) and self.reference.is_published
+    def group(self) -> Group:
+        """With what it compares.
 
-    @property
-    def question(self) -> Question:
-        """Which question it answers.
-
-        OTHERS: points of nature, and what other codes compute and others state. PRINTED: what the
+        OTHERS: points of nature, and what other codes compute and others state. PAPER: what the
         paper states, and a difference that is an entry of the ledger. All else, our second codes
-        and laws, asks only whether our curve is SOLVED right.
+        and laws, only checks our SOLVER.
         """
-        known, reference = self.documented, self.reference
+        known, reference = self.differs, self.reference
         if isinstance(reference, Fact):
             by_paper = reference.name.split("/")[0] == PAPER
-            return Question.PRINTED if by_paper else Question.OTHERS
+            return Group.PAPER if by_paper else Group.OTHERS
         if reference is not None and (reference.is_published or reference.others):
-            return Question.OTHERS
-        return Question.PRINTED if known and known.entry else Question.SOLVED
+            return Group.OTHERS
+        return Group.PAPER if known and known.entry else Group.SOLVER
+
+    def other_settings(self, run: Mapping[str, Any]) -> str:
+        """For which settings it is, and which the run has, in words; empty if they are the same.
+
+        It may be for one value among several of the run.
+
+        >>> fact = Fact("a/b", "1", settings={"friction": 0.5, "speed": {"first": 2}})
+        >>> own = Comparison("a", Metric.LANDMARK, "so", reference=fact)
+        >>> own.other_settings({"friction": [0.5, 1.0], "speed": {"first": 3}})
+        'speed.first 2, this run has 3'
+        """
+        of_reference = self.reference.settings if self.reference else {}
+        wanted, there = _leaves({**of_reference, **self.settings}), _leaves(run)
+        return "; ".join(
+            f"{key} {_in_words(value)}, this run has {_in_words(there[key])}"
+            for key, value in wanted.items()
+            if key in there
+            and value != there[key]
+            and not (isinstance(there[key], list) and value in there[key])
+        )
 
     def selected_points(self, series: Series) -> tuple[Table, list[Array]]:
         """The points of its reference that are compared, and for each y axis their sigmas.
@@ -162,7 +171,7 @@ class Comparison:
 
     def _window(self, series: Series) -> tuple[float, float]:
         """Where its regime begins and ends on the axis, by the parameters of the source."""
-        if self.regime is None:
+        if not self.regime:
             return -np.inf, np.inf
         stated = series.parameters
         groups = (stated[key] for key in ("mass_ratio", "stiffness_ratio", "restitution"))
@@ -170,8 +179,21 @@ class Comparison:
         if series.x.column == "angle":
             limits = np.degrees(np.arctan(stated["friction"] * limits))
         ends = [-np.inf, *limits, np.inf]
-        place = list(Regime).index(self.regime)
+        place = REGIMES.index(self.regime)
         return ends[place], ends[place + 1]
+
+
+def _leaves(settings: Mapping[str, Any], group: str = "") -> dict[str, Any]:
+    """Settings by their names, those of a group behind its name and a dot."""
+    found: dict[str, Any] = {}
+    for key, value in settings.items():
+        own = f"{group}{key}"
+        found |= _leaves(value, f"{own}.") if isinstance(value, Mapping) else {own: value}
+    return found
+
+
+def _in_words(value: Any) -> str:
+    return ", ".join(map(str, value)) if isinstance(value, list) else f"{value}"
 
 
 def limits_of_regimes(mass_ratio: float, stiffness_ratio: float, restitution: float) -> Array:

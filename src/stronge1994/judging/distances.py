@@ -51,10 +51,14 @@ def curve_residuals(
 def vertex_residuals(
     points: Sequence[ArrayLike], vertices: Sequence[ArrayLike], sigma: tuple[ArrayLike, ArrayLike]
 ) -> Distances:
-    """Distance of each point from the nearest vertex.
+    """Distance of each point from the nearest vertex; the vertical one from those at its x.
 
-    >>> vertex_residuals(([0.0], [1.0]), ([0.0, 9.0], [3.0, 1.0]), (1.0, 1.0))[0].tolist()
-    [-2.0]
+    These are at most a sigma beside it. Where there is none the vertical distance is infinite.
+
+    >>> vertex_residuals(([0.0], [1.0]), ([0.0, 9.0], [3.0, 1.0]), (1.0, 1.0))
+    (array([-2.]), array([-2.]))
+    >>> vertex_residuals(([0.0], [1.0]), ([0.0, 2.0], [9.0, 1.0]), (1.0, 1.0))
+    (array([-2.]), array([-8.]))
     """
     (x, y), (vertex_x, vertex_y), scales = (
         [np.asarray(axis, float) for axis in axes] for axes in (points, vertices, sigma)
@@ -62,10 +66,10 @@ def vertex_residuals(
     scale_x, scale_y = (np.broadcast_to(scale, x.shape) for scale in scales)
     sigmas, above = np.empty(len(x)), np.empty(len(x))
     for i in range(len(x)):
-        dx, dy = x[i] - vertex_x, y[i] - vertex_y
-        distance = np.hypot(dx / scale_x[i], dy / scale_y[i])
-        above[i] = dy[distance.argmin()]
-        sigmas[i] = np.copysign(distance.min(), above[i])
+        dx, dy = (x[i] - vertex_x) / scale_x[i], y[i] - vertex_y
+        at_x = dy[np.abs(dx) <= 1.0]
+        above[i] = at_x[np.abs(at_x).argmin()] if at_x.size else np.inf
+        sigmas[i] = np.copysign(np.hypot(dx, dy / scale_y[i]).min(), above[i])
     return sigmas, above
 
 

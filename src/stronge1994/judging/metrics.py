@@ -1,6 +1,6 @@
 """Distances of curves from what a comparison names, by its metric."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,8 +14,6 @@ from stronge1994.names import PRINTED
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table
 
-# Two ways to compute one energy agree to this; see the reason of the comparison.
-BALANCE_SIGMA = 1e-12
 # Both ends of a range lie within this many times the largest value: two digits are for the rounding
 # of other machines, and a wider range tests nothing.
 LARGEST_RANGE_RATIO = 100
@@ -24,8 +22,9 @@ LARGEST_RANGE_RATIO = 100
 class Measured(NamedTuple):
     """How far curves are from what a comparison names, at each of some points.
 
-    `quantity` is the column of their positions `at`; `sigmas` and `plain` are `Distances`, and
-    `columns` names the column of each. `shifts` has a row for each uncertain parameter: the change
+    `quantity` is the column of their positions `at`. `sigmas` and `plain` are `Distances`; of each
+    one `scales` has the sigma in the unit of its axis, `columns` its column, and `curves` its
+    curve, if that is not the only one. `shifts` has a row for each uncertain parameter: the change
     of all `sigmas` if it is off by one sigma.
     """
 
@@ -33,8 +32,31 @@ class Measured(NamedTuple):
     at: Array
     sigmas: Array
     plain: Array
+    scales: Array
     columns: list[str]
+    curves: Sequence[str] = ()
     shifts: Array = np.zeros((0, 0))
+
+    @property
+    def worst(self) -> int:
+        """Place of the largest distance in sigmas."""
+        return int(np.abs(self.sigmas).argmax())
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        """Root mean square and largest distance in the unit of the axis, and the signed first one.
+
+        Columns of several units have none in common: these are of the one with the `worst`. The
+        difference of a landmark is its value minus the stated one.
+        """
+        own = self.plain[np.array(self.columns) == self.columns[self.worst]]
+        rms, largest = rms_and_max(own)
+        return {"rms": rms, "max": largest, "difference": -float(self.plain[0])}
+
+
+def rms_and_max(distances: Array) -> tuple[float, float]:
+    """Root mean square and largest size of distances."""
+    return float(np.sqrt(np.mean(distances**2))), float(np.abs(distances).max())
 
 
 def measure(comparison: Comparison, curves: Table) -> Measured:
@@ -80,8 +102,9 @@ def _distances(
         [table[pair].to_numpy(float) for pair in pairs] for table in (points, chosen)
     )
     rows_of, find = _rows_by_labels(chosen, labels), _FROM_POINTS[comparison.metric]
-    parts: list[tuple[Array, *Distances]] = []
+    parts: list[tuple[Array, *Distances, Array]] = []
     columns: list[str] = []
+    names: list[str] = []
     for values, at in _rows_by_labels(points, labels).items():
         wanted = dict(zip(labels, values, strict=True))
         if values not in rows_of:
@@ -93,11 +116,12 @@ def _distances(
             if there.any() and not len(line):
                 raise ValueError(f"{of} has no column {y!a}")
             if there.any():
-                some = places[at][there]
-                parts.append((some[:, 0], *find(some.T, line.T, tuple(sigma[at][there].T))))
-                columns += [f"{y} of {of}"] * int(there.sum())
-    at_x, in_sigmas, plain = map(np.concatenate, zip(*parts, strict=True))
-    return Measured(series.x.name, at_x, in_sigmas, plain, columns)
+                some, both = places[at][there], sigma[at][there].T
+                parts.append((some[:, 0], *find(some.T, line.T, tuple(both)), both[1]))
+                columns += [y] * len(some)
+                names += [of] * len(some)
+    at_x, in_sigmas, plain, scales = map(np.concatenate, zip(*parts, strict=True))
+    return Measured(series.x.name, at_x, in_sigmas, plain, scales, columns, names)
 
 
 def _rows_by_labels(table: Table, labels: list[str]) -> dict[tuple[Any, ...], list[int]]:
@@ -149,7 +173,9 @@ def _from_fact(comparison: Comparison, fact: Fact, curves: Table) -> Measured:
     _refuse_missing(own, (sought.x, sought.y))
     value = landmarks.find(sought.kind, own[sought.x], own[sought.y], sought.at)
     quantity = sought.y if sought.kind == "value" else sought.x
-    return Measured(quantity, np.array([value]), *distances.fact_residuals(value, fact), [quantity])
+    scale = np.array([fact.tolerance or np.nan])  # an inequality has none
+    found = distances.fact_residuals(value, fact)
+    return Measured(quantity, np.array([value]), *found, scale, [quantity])
 
 
 def _rows_of_law(comparison: Comparison, curves: Table) -> Table:
@@ -177,11 +203,15 @@ def _of_law(comparison: Comparison, curves: Table) -> tuple[str, Array, Array]:
     return first, own[first].to_numpy(), own[list(comparison.columns)].to_numpy().T
 
 
+def _law(quantity: str, at: Array, plain: Array, scale: float, columns: list[str]) -> Measured:
+    return Measured(quantity, at, plain / scale, plain, np.full(len(at), scale), columns)
+
+
 def _small(comparison: Comparison, curves: Table) -> Measured:
-    """A column that must be small, or two that must be equal up to `BALANCE_SIGMA`."""
+    """A column that must be small, or two that must be equal, up to the limit."""
     first, x, values = _of_law(comparison, curves)
-    gap, scale = (values[0] - values[1], BALANCE_SIGMA) if len(values) == 2 else (values[0], 1.0)
-    return Measured(first, x, gap / scale, gap, [comparison.columns[0]] * len(x))
+    gap = values[0] - values[1] if len(values) == 2 else values[0]
+    return _law(first, x, gap, comparison.limit, [comparison.columns[0]] * len(x))
 
 
 def _range(comparison: Comparison, curves: Table) -> Measured:
@@ -197,7 +227,7 @@ def _range(comparison: Comparison, curves: Table) -> Measured:
         )
     gap = values.ravel() - (low + high) / 2
     columns = np.repeat(names, len(x)).tolist()
-    return Measured(first, np.tile(x, len(names)), gap / ((high - low) / 2), gap, columns)
+    return _law(first, np.tile(x, len(names)), gap, (high - low) / 2, columns)
 
 
 def _contraction(comparison: Comparison, curves: Table) -> Measured:
@@ -207,7 +237,7 @@ def _contraction(comparison: Comparison, curves: Table) -> Measured:
     steps = own.groupby("curve", sort=False)[[x, y]].diff().abs().dropna()
     excess = (steps[y] - steps[x]).clip(lower=0.0).groupby(own[x]).max()
     places, largest = excess.index.to_numpy(), excess.to_numpy()
-    return Measured(x, places, largest, largest, [y] * len(places))
+    return _law(x, places, largest, comparison.limit, [y] * len(places))
 
 
 _FROM_POINTS = {

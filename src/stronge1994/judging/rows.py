@@ -1,6 +1,6 @@
 """Rows of the verdict table, one for each comparison, and of the table of residuals.
 
-A table of curves that cannot be read is an error. What cannot be compared in it diverges, with the
+A table of curves that cannot be read is an error. What cannot be compared in it fails, with the
 reason in `note`.
 """
 
@@ -14,13 +14,13 @@ import pandas as pd
 from stronge1994 import tables
 from stronge1994.formulas import plain
 from stronge1994.judging.comparisons import Comparison
-from stronge1994.judging.metrics import Measured, measure
-from stronge1994.judging.verdicts import Judgement, judge
+from stronge1994.judging.metrics import Measured, measure, rms_and_max
+from stronge1994.judging.verdicts import judge
 from stronge1994.reference_data import Fact, Series
-from stronge1994.tables import Table
-from stronge1994.verdict_table import COLUMNS, LEDGER, Verdict
+from stronge1994.tables import Table, with_unit
+from stronge1994.verdict_table import COLUMNS, Verdict, Why
 
-RESIDUALS = ["comparison", "quantity", "at", "distance [sigma]"]
+RESIDUALS = ["comparison", "of curve", "quantity", "at", "distance [sigma]"]
 # The cells of a row by `COLUMNS`. `residuals` has its part of the table of residuals.
 VerdictRow: TypeAlias = dict[str, Any]
 
@@ -31,18 +31,20 @@ def compare(
     comparisons: Mapping[str, Mapping[str, Any]],
     references: Mapping[str, Mapping[str, Any]],
     significance: float,
+    settings: Mapping[str, Any],
 ) -> list[VerdictRow]:
     """Rows of the verdict table, one for each comparison of the table of curves at `path`.
 
-    `name` is that of a figure, or `scene_` and that of a scene. `references` has the series and
-    facts of source.yaml under `source/entry`, each with the parameters of its source. Published
-    points agree if p is above `significance`. Beside the cells of the table each row has
-    `residuals`, its part of the table of residuals.
+    `name` is that of a figure, or `scene_` and that of a scene; `settings` are those that its
+    curves were solved with. `references` has the series and facts of source.yaml under
+    `source/entry`, each with the parameters of its source. Published points agree if p is above
+    `significance`. Beside the cells of the table each row has `residuals`, its part of the table of
+    residuals.
     """
     curves = read(path)
     every = [Comparison.of(title, entry, references) for title, entry in comparisons.items()]
     return [
-        dict.fromkeys(COLUMNS, "") | {"figure": name} | _row(one, curves, significance)
+        dict.fromkeys(COLUMNS, "") | {"figure": name} | _row(one, curves, significance, settings)
         for one in every
     ]
 
@@ -56,93 +58,93 @@ def read(path: str) -> Table:
     return table
 
 
-def _row(comparison: Comparison, curves: Table, significance: float) -> VerdictRow:
+def _row(
+    comparison: Comparison, curves: Table, significance: float, settings: Mapping[str, Any]
+) -> VerdictRow:
     """Cells of one comparison: what was measured, and the verdict on it."""
-    reference = comparison.reference
+    reference, known = comparison.reference, comparison.differs
     cells: VerdictRow = {
         "comparison": comparison.name,
-        "question": comparison.question,
+        "group": comparison.group,
+        "says": comparison.says,
         "reference": reference.name if reference else "",
         "curve": tables.curve_name(comparison.curve),
         "model": comparison.curve.get("model", ""),
         "reason": plain(comparison.reason),
     }
+    none = {"verdict": Verdict.NOT_COMPARED}
     if isinstance(reference, Series) and reference.kind == "awaited":
-        return cells | {"verdict": Verdict.AWAITED, "note": reference.figure}
+        return cells | none | {"why": Why.AWAITED, "note": reference.figure}
+    if others := comparison.other_settings(settings):
+        what = "reference" if reference else "law"
+        return cells | none | {"why": Why.SETTINGS, "note": f"the {what} is for {others}"}
+    if known:
+        cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
         measured = measure(comparison, curves)
-        judged = judge(comparison, measured, significance)
-        cells |= _numbers(comparison, measured, judged, significance)
-        own = comparison.name, measured.quantity, measured.at, measured.sigmas
-        cells["residuals"] = pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))
-        verdict, note = judged.verdict, _note(comparison, measured, judged.verdict)
+        verdict, numbers = _judged(comparison, measured, significance)
     except Exception as error:
-        verdict, note = comparison.question.failed, f"{error}"
-    return cells | {"verdict": verdict, "note": plain(note)}
+        return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
+    cells |= numbers | {"verdict": verdict}
+    if verdict == Verdict.DIFFERS and known:
+        cells |= {"why": known.why, "paper": known.paper}
+    elif verdict == Verdict.FAILS and len(measured.at) > 1:
+        cells["note"] = "; ".join(filter(None, (cells.get("note"), _place(measured))))
+    of = measured.curves or cells["curve"]
+    own = comparison.name, of, measured.quantity, measured.at, measured.sigmas
+    return cells | {"residuals": pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))}
 
 
-def _note(comparison: Comparison, measured: Measured, verdict: Verdict) -> str:
-    """The documented cause of a difference; of a new difference, where it is largest."""
-    known = comparison.documented
-    cause = (f"{LEDGER}{known.entry}" if known.entry else known.note) if known else ""
-    sigmas = np.abs(measured.sigmas)
-    if not verdict.fails or len(sigmas) == 1:
-        return cause
-    worst = int(sigmas.argmax())
+def _place(measured: Measured) -> str:
+    """Where a distance is largest."""
+    worst = measured.worst
+    of = f" of {measured.curves[worst]}" if measured.curves else ""
     at = f"{measured.quantity} = {measured.at[worst]:g}"
-    place = f"largest for {measured.columns[worst]} at {at}"
-    return "; ".join(part for part in (cause, place) if part)
+    return f"largest for {measured.columns[worst]}{of} at {at}"
 
 
-def _numbers(
-    comparison: Comparison, measured: Measured, judged: Judgement, significance: float
-) -> VerdictRow:
-    bounds = comparison.regression.items()
-    cells: VerdictRow = {
-        "points": len(measured.at),
-        "unit": _unit(comparison.reference),
-        "allowed": _allowed(comparison, significance),
-        "regression": ", ".join(f"{low:g} <= {key} <= {high:g}" for key, (low, high) in bounds),
-    }
-    for unit, (rms, largest) in {"sigma": judged.sigmas, "axis units": judged.plain}.items():
-        cells |= {f"rms [{unit}]": f"{rms:.3g}", f"max [{unit}]": f"{largest:.3g}"}
+def _judged(
+    comparison: Comparison, measured: Measured, significance: float
+) -> tuple[Verdict, VerdictRow]:
+    """The verdict, and the cells of numbers; sizes are in the unit of the axis."""
+    verdict, chi2 = judge(comparison, measured, significance)
+    quantity, _, unit = measured.columns[measured.worst].rstrip("]").partition(" [")
+    sizes = {key: measured.sizes[key] for key in ("rms", "max")}
+    in_sigmas = zip(("rms [sigma]", "max [sigma]"), rms_and_max(measured.sigmas), strict=True)
+    cells: VerdictRow = {key: f"{size:.3g}" for key, size in (sizes | dict(in_sigmas)).items()}
+    bounds = [
+        f"{low:g} <= {key} <= {with_unit(high, unit)}"
+        for key, (low, high) in comparison.bounds.items()
+    ]
+    cells |= {"points": len(measured.at), "column": quantity, "unit": unit}
+    cells |= {"allowed": _allowed(comparison, measured, unit, significance)}
+    cells |= {"bounds": ", ".join(bounds)}
     if isinstance(comparison.reference, Fact):
-        cells |= {"found": f"{measured.at[0]:.4g}", "stated": _stated(comparison.reference)}
-    if chi2 := judged.chi2:
+        cells |= {"found": f"{measured.at[0]:.4g}", "stated": comparison.reference.stated}
+    if comparison.range:
+        values = measured.plain + sum(comparison.range) / 2
+        cells["found"] = f"{values.min():.3g} to {values.max():.3g}"
+    if chi2:
         cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
         cells |= {"degrees of sigma": chi2.of_sigma or "", "p": f"{chi2.p:.2g}"}
-    return cells
+    return verdict, cells
 
 
-def _stated(fact: Fact) -> str:
-    """A stated value or inequality with its unit."""
-    unit = "" if fact.unit == "1" else f" {fact.unit}"
-    stated = {"": fact.value, "< ": fact.less_than, "> ": fact.greater_than}
-    return "".join(f"{sign}{value:g}{unit}" for sign, value in stated.items() if value is not None)
-
-
-def _unit(reference: Series | Fact | None) -> str:
-    """Unit of the distances in axis units; empty for a law, and for several axes of other units."""
-    if not isinstance(reference, Series):
-        return reference.unit if reference else ""
-    units = {axis.unit for axis in reference.ordinates}
-    return units.pop() if len(units) == 1 else ""
-
-
-def _allowed(comparison: Comparison, significance: float) -> str:
-    reference = comparison.reference
+def _allowed(comparison: Comparison, measured: Measured, unit: str, significance: float) -> str:
+    """What a distance must meet, in the unit of the axis."""
+    reference, allowed = comparison.reference, comparison.allowance
     if comparison.range:
         return "{:g} to {:g}".format(*comparison.range)
+    if isinstance(reference, Fact) and reference.tolerance is None:
+        return reference.stated
     if not (isinstance(reference, Series) and reference.is_published):
-        return f"max <= {comparison.limit:g}"
+        size = float(f"{measured.scales[measured.worst]:.3g}")
+        return f"max <= {with_unit(size, unit)}"
     criterion = f"p > {significance:g}"
-    if comparison.allowance is None:
+    if allowed is None:
         return criterion
-    allowed = comparison.allowance
-    sizes = (
-        f"{axis.column} {size:g} {axis.unit}"
-        for axis, size in ((reference.x, allowed.x), (reference.ordinates[0], allowed.y))
-    )
+    both = (reference.x, allowed.x), (reference.ordinates[0], allowed.y)
+    sizes = [f"{axis.column} {with_unit(size, axis.unit)}" for axis, size in both]
     return f"{criterion}; the model may be off by {', '.join(sizes)}".replace("_", " ")
 
 

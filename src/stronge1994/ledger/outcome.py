@@ -8,9 +8,10 @@ from stronge1994.ledger.finding import MODELS
 from stronge1994.tables import Row
 
 COLUMNS = [
-    "kind", "entry", "holds", "verdict", "grade", "cause", "where", "says", "test", "found",
-    "confirms", "between", "corrected", "problem", "reading", "range", "correction", "derivation",
-    "because", "why", "in_nature", "nature", "nature_test", "nature_found", "nature_true_if",
+    "kind", "entry", "holds", "verdict", "only_if", "grade", "cause", "where", "says", "test",
+    "found", "confirms", "between", "corrected", "problem", "reading", "range", "correction",
+    "derivation", "because", "why", "in_nature", "nature", "nature_test", "nature_found",
+    "nature_true_if",
 ]  # fmt: skip
 # Columns of the table of what the checks of `nature` find.
 OF_NATURE = ["measure", "what", *MODELS]
@@ -42,13 +43,23 @@ def sentence_of_grades(rows: Sequence[Row]) -> str:
     return ", ".join(f"{count} {GRADES[grade]}" for grade, count in grades(rows).items())
 
 
+def conditional(rows: Sequence[Row]) -> int:
+    """How many entries are right only under a condition that the paper does not ask for."""
+    return sum(bool(row.get("only_if")) for row in rows)
+
+
 def summary(rows: Sequence[Row]) -> str:
     """Lines for a terminal: counts, and each entry that no longer holds with its reason."""
     counts = Counter(row["verdict"] for row in rows)
-    bad, graded = failing(rows), sentence_of_grades(rows)
-    counted = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-    said = f"{len(bad)} no longer hold" + (f"; of the wrong {graded}" if graded else "")
-    lines = textwrap.wrap(f"ledger of the paper: {counted}; {said}", 79, subsequent_indent="  ")
+    bad, under, graded = failing(rows), conditional(rows), sentence_of_grades(rows)
+    asides = {
+        "confirmed": f", {under} of them only under a condition" if under else "",
+        "wrong": f" ({graded})" if graded else "",
+    }
+    parts = [f"{count} {verdict}{asides.get(verdict, '')}" for verdict, count in counts.items()]
+    told = "; ".join([*parts, f"{len(bad)} no longer hold"])
+    head = f"{len(rows)} equations and sentences of the paper"
+    lines = textwrap.wrap(f"{head}: {told}", 79, subsequent_indent="  ")
     for row in bad:
         lines.append(f"  no longer holds: {row['entry']} ({row['where']}): {row['problem']}")
     return "\n".join(lines)

@@ -18,7 +18,7 @@ from stronge1994.names import MODELS, PAPER
 from stronge1994.pages import ledger_page
 from stronge1994.reference_data import Series
 from stronge1994.tables import Row, Table
-from stronge1994.verdict_table import Verdict
+from stronge1994.verdict_table import Group, Verdict, Why
 
 Numbers = dict[str, float]
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
@@ -64,12 +64,21 @@ def write(path: str, numbers: Numbers) -> None:
 
 
 def _counts(verdicts: Sequence[Row], ledger: Sequence[Row]) -> Numbers:
-    """How many rows have each verdict or grade; `published` are compared with published points."""
-    rows = Counter(row["verdict"] for row in verdicts)
+    """How many rows have each verdict, those that check our solver apart, or each grade.
+
+    `published` are compared with published points.
+    """
+    rows = Counter(
+        (row["group"] == Group.SOLVER, part)
+        for row in verdicts
+        for part in {row["verdict"], row["why"]} - {""}
+    )
     published = Counter(row["verdict"] for row in verdicts if row["p"])
     entries, grades = Counter(row["verdict"] for row in ledger), outcome.grades(ledger)
-    numbers: Numbers = {f"rows.{verdict}": rows[verdict] for verdict in Verdict}
-    numbers |= {"rows.judged": len(verdicts) - rows["as before"]}
+    numbers: Numbers = {f"rows.{part}": rows[False, part] for part in [*Verdict, *Why]}
+    numbers |= {f"rows.solver.{part}": rows[True, part] for part in [*Verdict, *Why]}
+    numbers |= {"rows.solver": sum(rows[True, verdict] for verdict in Verdict)}
+    numbers |= {"rows.others": sum(rows[False, verdict] for verdict in Verdict)}
     numbers |= {"rows.published.agrees": published["agrees"], "ledger.entries": len(ledger)}
     numbers |= {f"ledger.{verdict}": entries[verdict] for verdict in ledger_page.STYLE}
     numbers |= {f"ledger.{grade}": grades.get(grade, 0) for grade in outcome.GRADES}

@@ -37,14 +37,17 @@ def count(number: float) -> str:
 def page(
     numbers: Mapping[str, float],
     verdicts: Sequence[Row],
+    shows: Mapping[str, str],
     pictures: Mapping[str, bytes],
     template: Path,
 ) -> str:
-    """The note as a page, from key numbers, rows of verdicts, and SVG by their figures."""
+    """The note as a page, from key numbers, verdicts, and by figures what they show, and SVG."""
     environment = templates.environment(template.parent)
     environment.filters |= {"probability": probability, "count": count}
     return environment.get_template(template.name).render(
         n=numbers,
-        figures=[row for row in figure_table.of_run(verdicts) if is_of_paper(row.figure)],
+        figures=figure_table.of_run(
+            verdicts, {name: words for name, words in shows.items() if is_of_paper(name)}
+        ),
         pictures={name: templates.embedded(svg) for name, svg in pictures.items()},
     )

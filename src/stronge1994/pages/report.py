@@ -6,8 +6,7 @@ Nothing is solved here.
 import io
 import re
 import shutil
-from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -30,35 +29,19 @@ from stronge1994.pages import (
     which_model,
 )
 from stronge1994.tables import Row
-from stronge1994.verdict_table import Verdict
+from stronge1994.verdict_table import Group, Verdict
 
-MARKS = {
-    "wrong": "fails",
-    "diverges": "fails",
-    "unexplained difference": "judgement",
-    "untested difference": "misprint",
-    "explained difference": "rounding",
-    "awaited": "not",
-    "inconclusive": "not",
-    "agrees": "confirmed",
-    "right": "confirmed",
-    "as before": "not",
-}
 MEANING = {
-    "wrong": "our curve is not that of its model, by a second code or a law: the run fails",
-    "diverges": "outside its tolerance, or a known difference has changed: the run fails",
-    "unexplained difference": "as large as before; we do not know its cause",
-    "untested difference": "how much the points scatter, or a computation errs, is not published: "
-    "χ² tests nothing",
-    "explained difference": "as large as before; we know its cause",
-    "awaited": "we do not have the reference yet",
-    "inconclusive": "the uncertainties are too large to decide: it would also agree if all points "
-    f"lay {VISIBLE_SHIFT:g} sigmas beside the curve",
-    "agrees": "with the paper or with others: p is large enough (published or measured points), or "
-    "the distance is within its tolerance",
-    "right": "our curve is that of its model: within the tolerance of our second code or of a law",
-    "as before": "as an earlier result of ours, or fitted to these points: no evidence",
+    Verdict.FAILS: "outside its tolerance, or a known difference has changed: the run fails",
+    Verdict.DIFFERS: "as known: the cause is known or unknown, or the scatter of the data is not "
+    "published, so that nobody can say what a difference means",
+    Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, and all points lay "
+    f"{VISIBLE_SHIFT:g} sigmas beside it",
+    Verdict.NOT_COMPARED: "points are awaited, or are for other settings than those of the run",
+    Verdict.AGREES: "within the tolerance of a stated value, or chance explains the distances",
 }
+# What stands first among the comparisons of a figure.
+FIRST = (Verdict.FAILS, Verdict.NOT_COMPARED, Verdict.DIFFERS)
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
 # Tables with a section of the report; their captions stand in files of the same names.
 SECTIONS = ("which_model", "trade")
@@ -67,48 +50,39 @@ SECTIONS = ("which_model", "trade")
 def page(values: TemplateValues, template: Path) -> str:
     """The report, from `values` as `write` makes them."""
     verdicts, entries = values["verdicts"], {row["entry"] for row in values["ledger"]}
-
-    def entry_of(row: Row) -> str | None:
-        """Entry of the ledger that a row of the verdict table names."""
-        name = row["note"].removeprefix(verdict_table.LEDGER)
-        return name if name in entries else None
-
     environment = templates.environment(template.parent)
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
-        "bounds": bounds,
-        "measured": measured,
+        "numbers": numbers,
+        "measured": verdict_table.measured,
+        "chance": verdict_table.chance,
+        "outcome": verdict_table.outcome,
     }
     environment.tests["in_paper"] = is_of_paper
+    table = figure_table.of_run(verdicts, values["shows"])
     return environment.get_template(template.name).render(
         values,
         lapsed=outcome.failing(values["ledger"]),
         grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
-        verdict_counts=Counter(row["verdict"] for row in verdicts),
-        known=[row for row in verdicts if Verdict(row["verdict"]).differs],
-        differences=[verdict for verdict in Verdict if verdict.differs],
-        fails=[verdict for verdict in Verdict if verdict.fails],
-        figure_table_rows=figure_table.of_run(verdicts),
-        marks=MARKS,
-        verdict_meaning=MEANING,
-        entry_of=entry_of,
+        unmade=gate.unmade(verdicts),
+        known=[row for row in verdicts if row["verdict"] == Verdict.DIFFERS],
+        in_paper=[row for row in table if is_of_paper(row.figure)],
+        beyond=[row for row in table if not is_of_paper(row.figure) and row.others],
+        of_solver=figure_table.of_solver(verdicts),
+        beyond_paper=figure_table.beyond(verdicts),
+        meaning=MEANING,
+        scenes=parts([row for row in verdicts if row["figure"] not in values["figures"]]),
+        solver=Group.SOLVER,
     )
 
 
-def measured(row: Row) -> Markup:
-    """How large the distance of a row of the verdict table is, its unit as a formula."""
-    value, _, stated = row["stated"].partition(" ")
-    shown = {"stated": f"{value}{words.unit(stated)}", "unit": words.unit(row["unit"]).strip()}
-    return mathematical(verdict_table.measured(row | shown).replace("chi^2", "χ²"))
+def numbers(text: str) -> Markup:
+    """Sizes, bounds and tests of the verdict table, with formulas.
 
-
-def bounds(text: str) -> Markup:
-    """Bounds of a comparison.
-
-    >>> print(bounds("133 <= chi2 <= 164"))
-    133 ≤ χ² ≤ 164
+    >>> print(numbers("0.1 <= rms <= 0.2 rad/s"))
+    0.1 ≤ rms ≤ 0.2 rad/s
     """
-    return mathematical(text.replace("<=", "≤").replace("chi2", "χ²"))
+    return mathematical(words.with_units(text).replace("<=", "≤").replace("chi^2", "χ²"))
 
 
 def figure(
@@ -127,11 +101,29 @@ def figure(
         "picture": templates.embedded(svg),
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
-        "rows": rows,
+        "comparisons": parts(rows),
         "has_residuals": len(residuals) > 0,
         "has_slide": has_slide,
         "strips": templates.embedded(_svg(strips)) if strips else None,
     }
+
+
+def parts(rows: Sequence[Row]) -> TemplateValues:
+    """Comparisons that stand first, as they fail, are not made or differ; the rest, and its counts.
+
+    Differences of other models than the paper's, and of our own checks, are in the rest.
+    """
+
+    def stands_first(row: Row) -> bool:
+        of_paper = row["model"] in figure_table.MODELS_OF_PAPER and row["group"] != Group.SOLVER
+        return row["verdict"] == Verdict.FAILS or (of_paper and row["verdict"] in FIRST)
+
+    first = [row for verdict in FIRST for row in rows if row["verdict"] == verdict]
+    first = [row for row in first if stands_first(row)]
+    rest = [row for row in rows if row not in first]
+    with_others, own = figure_table.counted(rest), figure_table.counted(rest, solver=True)
+    counts = [with_others, f"solver checked: {own}" if own else ""]
+    return {"first": first, "rest": rest, "counts": "; ".join(filter(None, counts))}
 
 
 def _svg(strips: list[tables.Table]) -> bytes:
@@ -143,7 +135,7 @@ def _svg(strips: list[tables.Table]) -> bytes:
 def _with_formulas(row: Row, config: Mapping[str, Any]) -> Row:
     """A row with reason and note as the figure's folder has them, not plain as in the table."""
     entry = config["comparisons"].get(row["comparison"], {})
-    written = [entry.get("reason", ""), entry.get("documented", {}).get("note", "")]
+    written = [entry.get("reason", ""), entry.get("differs", {}).get("note", "")]
     latex = {plain(text): text for text in written}
     return row | {key: latex.get(row[key], row[key]) for key in ("reason", "note")}
 
@@ -161,6 +153,7 @@ def write(
     made: Any,
     *,
     config: Mapping[str, Any],
+    shows: Mapping[str, str],
     captions: Mapping[str, str],
     slides: Collection[str],
     sources: Mapping[str, Any],
@@ -172,8 +165,8 @@ def write(
 ) -> None:
     """Write all pages and the tables that belong to them; files and settings are those of the rule.
 
-    `captions` are those of the figures, `slides` names those that have one. `sources` holds
-    data/*/source.yaml, `stated` the series of which the note states numbers. `symbols` and
+    `shows` and `captions` are those of the figures, `slides` names those that have one. `sources`
+    holds data/*/source.yaml, `stated` the series of which the note states numbers. `symbols` and
     `impacts` are those of the ledger; `rows` and `entries` are as in `gate.faults`.
     """
     verdicts = verdict_table.gather(given.verdicts)
@@ -197,6 +190,7 @@ def write(
     folder, run = templates.SHARED, versions.of_run(given.versions)
     values = {
         "verdicts": shown,
+        "shows": shows,
         "ledger": ledger,
         "figures": figures,
         "captions": {
@@ -211,7 +205,7 @@ def write(
     pages = {
         made.report: page(values, folder / "report.html"),
         made.sources: sources_page.page(sources, config, run, folder / "sources.html"),
-        made.note: note.page(numbers, verdicts, pictures, folder / "note.html"),
+        made.note: note.page(numbers, verdicts, shows, pictures, folder / "note.html"),
         made.ledger: ledger_page.page(ledger, symbols, impacts, folder / "ledger.html"),
     }
     for path, text in pages.items():

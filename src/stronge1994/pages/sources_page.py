@@ -1,6 +1,7 @@
 """Page of the sources of data, settings and versions of a run."""
 
 import json
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,8 +10,34 @@ import yaml
 
 from stronge1994.pages import templates
 
+# Kinds of reference data, in the order in which their sources stand; facts are stated.
+KINDS = ("measured", "digitised", "stated", "computed", "awaited")
 # Settings that all figures share.
 SHARED = ("mass_ratio", "stiffness_ratio", "significance")
+
+
+def kinds(source: Mapping[str, Any]) -> list[str]:
+    """Kind of each series and fact of a source.
+
+    >>> kinds({"series": {"a": {"kind": "computed"}}, "facts": {"b": {"statement": "so"}}})
+    ['computed', 'stated']
+    """
+    series = source.get("series", {}).values()
+    return [entry["kind"] for entry in series] + ["stated"] * len(source.get("facts", {}))
+
+
+def by_kind(sources: Mapping[str, Any]) -> dict[str, Any]:
+    """Sources in the order of `KINDS`; one of several kinds stands with its first.
+
+    >>> of = {kind: {"series": {"a": {"kind": kind}}} for kind in ("computed", "stated")}
+    >>> list(by_kind(of))
+    ['stated', 'computed']
+    """
+
+    def rank(name: str) -> int:
+        return min(map(KINDS.index, kinds(sources[name])), default=len(KINDS))
+
+    return {name: sources[name] for name in sorted(sources, key=rank)}
 
 
 def page(
@@ -28,7 +55,9 @@ def page(
     }
     environment = templates.environment(template.parent)
     return environment.get_template(template.name).render(
-        sources=sources,
+        sources=by_kind(sources),
+        choices={"kind": ("Kind", KINDS)},
+        counts=Counter(kind for source in sources.values() for kind in kinds(source)),
         shared={key: config[key] for key in SHARED},
         settings={figure: in_yaml(part) for figure, part in settings.items()},
         run=run,

@@ -7,10 +7,22 @@ import jinja2
 
 from stronge1994 import words
 from stronge1994.formulas import mathematical, number
+from stronge1994.verdict_table import Verdict
 
 # Folder of the theme and the bar of pages, which all pages share.
 SHARED = Path(__file__).parents[3] / "workflow/report"
+# Classes of the style, by verdict.
+MARKS = {
+    Verdict.FAILS: "fails",
+    Verdict.DIFFERS: "misprint",
+    Verdict.CANNOT_TELL: "not",
+    Verdict.NOT_COMPARED: "not",
+    Verdict.AGREES: "confirmed",
+    Verdict.PASSED: "confirmed",
+}
 FILTERS = {
+    "mark_of": lambda verdict: MARKS[Verdict(verdict)],
+    "with_units": words.with_units,
     "maths": mathematical,
     "number": number,
     "title_of": words.figure,

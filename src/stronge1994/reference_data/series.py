@@ -13,7 +13,7 @@ from pydantic.dataclasses import dataclass
 
 from planarimpact.common import csv_text
 from planarimpact.common.arrays import Array
-from stronge1994.tables import Table
+from stronge1994.tables import Table, with_unit
 
 # Kinds of series that hold points of nature: published ones, or measured by their owner.
 PUBLISHED = ("measured", "digitised", "stated", "awaited")
@@ -75,6 +75,17 @@ class Fact:
     tolerance: float | None = None
     less_than: float | None = None
     greater_than: float | None = None
+    settings: dict[str, Any] = field(default_factory=dict)  # as those of a `Series`
+
+    @property
+    def stated(self) -> str:
+        """The value or the inequality, with its unit.
+
+        >>> Fact("a/b", "N", less_than=2.0).stated
+        '< 2 N'
+        """
+        signs = {"": self.value, "< ": self.less_than, "> ": self.greater_than}
+        return next(f"{s}{with_unit(v, self.unit)}" for s, v in signs.items() if v is not None)
 
 
 @dataclass(frozen=True)
@@ -83,7 +94,8 @@ class Series:
 
     `path` is that of its table, None while it is awaited. `others` says that a code which is not
     ours computed it. `sigma_values` is the number of independent values from which the sigmas were
-    estimated, None if they are known. `parameters` are those of the source, by name.
+    estimated, None if they are known. `parameters` are those of the source, by name; `settings`
+    are those of a figure for which alone the points hold.
     """
 
     kind: str
@@ -97,6 +109,7 @@ class Series:
     sigma_values: int | None = None
     figure: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
+    settings: dict[str, Any] = field(default_factory=dict)
 
     @property
     def ordinates(self) -> tuple[Axis, ...]:

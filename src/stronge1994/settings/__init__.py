@@ -7,6 +7,7 @@ rule, and silently takes its old output for a source file.
 from collections.abc import Mapping
 from typing import Any
 
+from stronge1994.names import SCENE
 from stronge1994.reference_data import Series
 from stronge1994.settings import figures
 from stronge1994.settings.config import SHARED, Config, Entry, Inventory, reference, table_of
@@ -16,7 +17,7 @@ def physics(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]
     """Settings of one figure: shared physics and its own, an experiment by its parameters."""
     stated = figures.stated()[figure]
     own = config["figures"][figure]
-    chosen = {key: config[key] for key in stated.get("shared", [])} | own
+    chosen = settings_of(config, figure)
     for key, setting in stated["settings"].items():
         if setting.get("allowed") == "source":
             parameters = inventory[own[key]]["parameters"]
@@ -68,10 +69,19 @@ def of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, A
             "comparisons": comparisons(config, name),
             "references": known,
             "significance": config["significance"],
+            "settings": settings_of(config, name),
         },
         "table": table_of(name),
         "series": _files(known),
     }
+
+
+def settings_of(config: Config, name: str) -> dict[str, Any]:
+    """Settings of a figure or of a scene, as the config has them."""
+    if name.startswith(SCENE):
+        return dict(config["scenes"][name.removeprefix(SCENE)])
+    shared = figures.stated()[name].get("shared", [])
+    return {key: config[key] for key in shared} | config["figures"][name]
 
 
 def references(config: Config, inventory: Inventory, name: str) -> dict[str, Entry]:

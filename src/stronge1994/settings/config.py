@@ -120,10 +120,10 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
                 "allowed are " + ", ".join(judged(config))
             )
         _check_comparison(f"config: comparisons.{name}", comparison, inventory)
-        entry = comparison.get("documented", {}).get("entry")
+        entry = comparison.get("differs", {}).get("entry")
         if entry is not None and entry not in ledger:
             raise ConfigError(
-                f"config: comparisons.{name}.documented.entry: {entry!a} is not in the ledger; a "
+                f"config: comparisons.{name}.differs.entry: {entry!a} is not in the ledger; a "
                 "difference that does not concern the paper has a `note` instead"
             )
 
@@ -139,11 +139,11 @@ def _check_source(where: str, name: str, needed: list[str], inventory: Inventory
 
 def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> None:
     metric = comparison["metric"]
-    for key, (low, high) in comparison.get("regression", {}).items():
+    for key, (low, high) in comparison.get("bounds", {}).items():
         small, large = sorted((abs(low), abs(high)))
         if not (low * high > 0 and large < 2 * small):
             raise ConfigError(
-                f"{where}.regression.{key} = {[low, high]}: both have one sign, and neither is "
+                f"{where}.bounds.{key} = {[low, high]}: both have one sign, and neither is "
                 "twice the other or more: else the difference could double unnoticed"
             )
     if metric not in ("distance", "vertices", "landmark"):

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.tables import Row, Table
-from stronge1994.verdict_table import COLUMNS, Question, Verdict
+from stronge1994.verdict_table import COLUMNS, Group, Verdict, Why, outcome
 
 # Inches: height of a strip with its title, and of the label of its x axis.
 STRIP, LABEL = 0.56, 0.42
@@ -23,18 +23,14 @@ def _hollow(marker: str, colour: str) -> dict[str, Any]:
     return style | {"markerfacecolor": "white", "markeredgewidth": 0.7}
 
 
-# Marks of verdicts. Other verdicts are not drawn: where a curve is right, all points lie within a
-# sigma; where sigma is not known, or the curve was fitted to the points, sigmas have no meaning.
+# Marks of outcomes. Others are not drawn: where a check passed, all points lie within a sigma, and
+# where their scatter is not published, sigmas have no meaning.
 MARKS: dict[str, dict[str, Any]] = {
     Verdict.AGREES: {"color": house_style.BLACK, "marker": "o", "markersize": 2},
-    Verdict.INCONCLUSIVE: _hollow("o", house_style.BLACK),
-    Verdict.EXPLAINED: _hollow("s", house_style.BLUE),
-    Verdict.UNEXPLAINED: _hollow("D", house_style.PURPLE),
-    **{
-        verdict: {"color": house_style.VERMILLION, "marker": "x", "markersize": 4}
-        for verdict in Verdict
-        if verdict.fails
-    },
+    Verdict.CANNOT_TELL: _hollow("o", house_style.BLACK),
+    f"{Verdict.DIFFERS}, {Why.KNOWN}": _hollow("s", house_style.BLUE),
+    f"{Verdict.DIFFERS}, {Why.UNKNOWN}": _hollow("D", house_style.PURPLE),
+    Verdict.FAILS: {"color": house_style.VERMILLION, "marker": "x", "markersize": 4},
 }
 DISTANCE = "distance [sigma]"
 
@@ -44,12 +40,11 @@ def strips(residuals: Table, verdicts: Sequence[Row]) -> list[Table]:
 
     `verdicts` has the rows of the table of verdicts for the comparisons of `residuals`.
     """
-    judged = pd.DataFrame(verdicts, columns=COLUMNS)
+    judged = pd.DataFrame(verdicts, columns=COLUMNS).assign(outcome=list(map(outcome, verdicts)))
     every = residuals.merge(judged, on="comparison")
-    failing = every["verdict"].isin([verdict for verdict in Verdict if verdict.fails])
     # A landmark is one point. Of printed equations the figure draws both curves.
-    shows_more = (every["found"] == "") & (every["question"] != Question.PRINTED)
-    shown = every[every["verdict"].isin(MARKS) & (shows_more | failing)]
+    shows_more = (every["found"] == "") & (every["group"] != Group.PAPER)
+    shown = every[every["outcome"].isin(MARKS) & (shows_more | (every["verdict"] == Verdict.FAILS))]
     return [
         strip
         for _, of_axis in shown.groupby("quantity", sort=False)
@@ -66,8 +61,8 @@ def draw(strips: Sequence[Table]) -> Figure:
     rows = figure.subplots(len(strips), squeeze=False)[:, 0]
     note = {"fontsize": house_style.NOTE}
     for axes, last, strip, quantity in zip(rows, labelled, strips, axis, strict=True):
-        for verdict, points in strip.groupby("verdict", sort=False):
-            axes.plot(points["at"], points[DISTANCE], linestyle="none", **MARKS[verdict])
+        for name, points in strip.groupby("outcome", sort=False):
+            axes.plot(points["at"], points[DISTANCE], linestyle="none", **MARKS[name])
         axes.axhline(0, **house_style.GUIDE)
         curve, reference = strip[["curve", "reference"]].iloc[0]
         axes.set_title(f"{curve or 'all curves'}  -  {reference}", loc="left", pad=3, **note)
@@ -78,8 +73,8 @@ def draw(strips: Sequence[Table]) -> Figure:
         same = [a for a, q in zip(rows, axis, strict=True) if q == quantity]
         axes.set_xlim(min(a.get_xlim()[0] for a in same), max(a.get_xlim()[1] for a in same))
     figure.supylabel(house_style.of_column(DISTANCE), fontsize=house_style.NOTE + 1)
-    drawn = {verdict for strip in strips for verdict in strip["verdict"]}
-    marks = [(verdict, mark) for verdict, mark in MARKS.items() if verdict in drawn]
-    keys = [house_style.key(verdict, linestyle="none", **mark) for verdict, mark in marks]
+    drawn = {name for strip in strips for name in strip["outcome"]}
+    marks = [(name, mark) for name, mark in MARKS.items() if name in drawn]
+    keys = [house_style.key(name, linestyle="none", **mark) for name, mark in marks]
     house_style.legend_below(figure, keys)
     return figure

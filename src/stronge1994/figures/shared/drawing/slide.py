@@ -1,11 +1,13 @@
 """A slide: one panel of a figure for a projector, on a light and on a dark ground.
 
 figure.yaml names the panel by its letter and gives the slide a title. The slide has the entries of
-the figure's legend whose labels are those of lines, marks and areas in the panel.
+the figure's legend whose labels are those of lines, marks and areas in the panel. It may have only
+some of them.
 """
 
 import re
 import textwrap
+from collections.abc import Collection
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -20,9 +22,23 @@ DOTS_PER_INCH = 300
 DARK = np.array([0x15, 0x18, 0x1C])  # ground of the pages and of the lectures
 
 
-def save(figure: Figure, panel: str, title: str, light: str, dark: str, source: str = "") -> None:
-    """Reduce a figure to one panel, and write both files; `source` goes to their metadata."""
+def save(
+    figure: Figure,
+    panel: str,
+    title: str,
+    light: str,
+    dark: str,
+    source: str = "",
+    only: Collection[str] = (),
+) -> None:
+    """Reduce a figure to one panel, and write both files; `source` goes to their metadata.
+
+    `only` names the entries of the legend that stay, each without its numbers; without it all do.
+    """
     kept = next(a for a in figure.axes if f"({panel})" in a.get_ylabel() + a.get_title())
+    for artist, label in zip(*kept.get_legend_handles_labels(), strict=True):
+        if only and label.split(", $")[0] not in only:
+            artist.remove()
     legends = figure.findobj(Legend)
     known = {text.get_text() for legend in legends for text in legend.get_texts()}
     pairs = zip(*kept.get_legend_handles_labels(), strict=True)
