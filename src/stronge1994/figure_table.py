@@ -89,12 +89,13 @@ def _items(rows: Table) -> Iterator[Item]:
 
 def _against_facts(rows: Table) -> str:
     """What was stated, and what the model has; an inequality has no size."""
-    stated, unit = rows["stated"], rows["unit"].iloc[0]
-    if stated.iloc[0][0] in "<>":
+    *others, last = rows["stated"]
+    if last[0] in "<>":
         return ""
-    values = " and ".join(value.removesuffix(f" {unit}") for value in stated)
+    unit = f" {rows['unit'].iloc[0]}"  # said once, of the last value
+    stated = " and ".join([*(value.removesuffix(unit) for value in others), last])
     found = " and ".join(f"{float(value):.3g}" for value in rows["found"])
-    return f"{values} {unit}".removesuffix(" 1") + f", model {found}"
+    return f"{stated}, model {found}"
 
 
 def _against_points(rows: Table, first: Row, name: str) -> str:

@@ -91,9 +91,7 @@ def summary(
         judged = {row["figure"] for row in rows}
         shown = {name: words for name, words in shows.items() if name in judged}
         parts += [figure_table.text(figure_table.of_run(rows, shown))]
-        parts += [
-            line for line in (figure_table.beyond(rows), figure_table.of_solver(rows)) if line
-        ]
+        parts += filter(None, [figure_table.beyond(rows), figure_table.of_solver(rows)])
         parts += [""]
     elif verdicts:
         parts += [verdict_table.text(rows), f"All columns: {verdicts[0]}"]

@@ -1,12 +1,11 @@
 """The verdicts of a run as one table with a row for each comparison."""
 
-import itertools
 import textwrap
 from collections.abc import Iterable, Sequence
 from enum import StrEnum
 
 from stronge1994 import tables
-from stronge1994.tables import Row
+from stronge1994.tables import Row, with_unit
 
 WIDTH = 80  # of a terminal
 # Texts that may hold a comma stand last.
@@ -73,10 +72,10 @@ def measured(row: Row) -> str:
         return f"{row['found']}, stated {row['stated']}" if row["stated"] else row["found"]
     if not row["points"]:
         return ""
-    size = f"rms {row['rms']}, max {row['max']} {row['unit']}".removesuffix(" 1")
+    size = f"rms {row['rms']}, max {with_unit(float(row['max']), row['unit'])}"
     sigmas = f" ({row['rms [sigma]']} sigma)" if row["p"] else ""
     count = f"{row['points']} point" + ("" if row["points"] == "1" else "s")
-    return f"{size.strip()}{sigmas}; {count}"
+    return f"{size}{sigmas}; {count}"
 
 
 def chance(row: Row) -> str:
@@ -104,15 +103,11 @@ def problem(row: Row) -> str:
 
 def text(rows: Sequence[Row]) -> str:
     """The rows of one figure for a terminal."""
-    told = (
-        (
-            row["verdict"],
-            row["comparison"],
-            [measured(row), row["reference"], row["why"], row["entry"]],
-        )
-        for row in rows
-    )
-    return "\n".join(itertools.chain.from_iterable(itertools.starmap(lines, told)))
+    told = []
+    for row in rows:
+        parts = [measured(row), row["reference"], row["why"], row["entry"]]
+        told += lines(row["verdict"], row["comparison"], parts)
+    return "\n".join(told)
 
 
 def lines(verdict: str, name: str, parts: Iterable[str]) -> list[str]:

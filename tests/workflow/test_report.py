@@ -11,7 +11,7 @@ import pytest
 import yaml
 from scipy.special import chdtrc
 
-from stronge1994 import reference_data, tables, verdict_table
+from stronge1994 import figure_table, reference_data, tables, verdict_table
 from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number
@@ -168,7 +168,7 @@ def test_numbers_of_the_note_are_those_that_the_words_behind_them_mean(numbers):
         name: 4.0 for name in numbers if name.endswith(("failed", "spreads", "published.agrees"))
     }
     names, marks = list(numbers), {name: 3000.0 + i for i, name in enumerate(numbers)}
-    page = note.page(marks | spelt, [], {}, shown, ROOT / "workflow/report/note.html")
+    page = note.page(marks | spelt, [], shown, ROOT / "workflow/report/note.html")
     marked = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda m: f"«{names[int(m[1])]}»", Page(page).text)
     row_of_table = "pairs.*.chi2» «pairs.*.least» to «pairs.*.most» 4 «pairs.*.without polyurethane"
     row_of_table += ".chi2» «rubber.*.distance» «rubber.*.distance.small» «yielding.*.rms»"
@@ -330,7 +330,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "n": {},
         "significance": CONFIG["significance"],
         "run": {"date": "Today", "commit": "abc"},
-        "shows": {"fig6": "rebound"},
+        "table": figure_table.of_run(VERDICTS, {"fig6": "rebound"}),
         "faults": ["FAILS: fig6-far: max 9"],
     }
     page = write_report.page(values, ROOT / "workflow/report/report.html")

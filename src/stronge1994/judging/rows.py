@@ -109,9 +109,9 @@ def _judged(
     """The verdict, and the cells of numbers; sizes are in the unit of the axis."""
     verdict, chi2 = judge(comparison, measured, significance)
     quantity, _, unit = measured.columns[measured.worst].rstrip("]").partition(" [")
-    sizes = {key: measured.sizes[key] for key in ("rms", "max")}
-    in_sigmas = zip(("rms [sigma]", "max [sigma]"), rms_and_max(measured.sigmas), strict=True)
-    cells: VerdictRow = {key: f"{size:.3g}" for key, size in (sizes | dict(in_sigmas)).items()}
+    sizes, (rms, largest) = measured.sizes, rms_and_max(measured.sigmas)
+    numbers = {"rms": sizes["rms"], "max": sizes["max"], "rms [sigma]": rms, "max [sigma]": largest}
+    cells: VerdictRow = {key: f"{number:.3g}" for key, number in numbers.items()}
     bounds = [
         f"{low:g} <= {key} <= {with_unit(high, unit)}"
         for key, (low, high) in comparison.bounds.items()

@@ -6,10 +6,9 @@ Every number that a run computes is one of the key numbers.
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from stronge1994 import figure_table
+from stronge1994.figure_table import FigureRow
 from stronge1994.names import is_of_paper
 from stronge1994.pages import templates
-from stronge1994.tables import Row
 
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 # Smaller probabilities are shown as `< 0.001`.
@@ -36,18 +35,15 @@ def count(number: float) -> str:
 
 def page(
     numbers: Mapping[str, float],
-    verdicts: Sequence[Row],
-    shows: Mapping[str, str],
+    table: Sequence[FigureRow],
     pictures: Mapping[str, bytes],
     template: Path,
 ) -> str:
-    """The note as a page, from key numbers, verdicts, and by figures what they show, and SVG."""
+    """The note as a page, from key numbers, the table for a reader, and SVG by their figures."""
     environment = templates.environment(template.parent)
     environment.filters |= {"probability": probability, "count": count}
     return environment.get_template(template.name).render(
         n=numbers,
-        figures=figure_table.of_run(
-            verdicts, {name: words for name, words in shows.items() if is_of_paper(name)}
-        ),
+        figures=[row for row in table if is_of_paper(row.figure)],
         pictures={name: templates.embedded(svg) for name, svg in pictures.items()},
     )

@@ -56,10 +56,9 @@ def page(values: TemplateValues, template: Path) -> str:
         "numbers": numbers,
         "measured": verdict_table.measured,
         "chance": verdict_table.chance,
-        "outcome": verdict_table.outcome,
     }
     environment.tests["in_paper"] = is_of_paper
-    table = figure_table.of_run(verdicts, values["shows"])
+    table = values["table"]
     return environment.get_template(template.name).render(
         values,
         lapsed=outcome.failing(values["ledger"]),
@@ -114,12 +113,15 @@ def parts(rows: Sequence[Row]) -> TemplateValues:
     Differences of other models than the paper's, and of our own checks, are in the rest.
     """
 
-    def stands_first(row: Row) -> bool:
-        of_paper = row["model"] in figure_table.MODELS_OF_PAPER and row["group"] != Group.SOLVER
-        return row["verdict"] == Verdict.FAILS or (of_paper and row["verdict"] in FIRST)
+    def of_paper(row: Row) -> bool:
+        return row["model"] in figure_table.MODELS_OF_PAPER and row["group"] != Group.SOLVER
 
-    first = [row for verdict in FIRST for row in rows if row["verdict"] == verdict]
-    first = [row for row in first if stands_first(row)]
+    first = [
+        row
+        for verdict in FIRST
+        for row in rows
+        if row["verdict"] == verdict and (verdict == Verdict.FAILS or of_paper(row))
+    ]
     rest = [row for row in rows if row not in first]
     with_others, own = figure_table.counted(rest), figure_table.counted(rest, solver=True)
     counts = [with_others, f"solver checked: {own}" if own else ""]
@@ -183,6 +185,7 @@ def write(
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
     residuals = {Path(path).stem: pd.read_csv(path) for path in given.residuals}
     shown = [_with_formulas(row, config) for row in verdicts]
+    table = figure_table.of_run(verdicts, shows)
     figures = {
         name: figure(name, picture, captions[name], residuals[name], shown, name in slides)
         for name, picture in pictures.items()
@@ -190,7 +193,7 @@ def write(
     folder, run = templates.SHARED, versions.of_run(given.versions)
     values = {
         "verdicts": shown,
-        "shows": shows,
+        "table": table,
         "ledger": ledger,
         "figures": figures,
         "captions": {
@@ -205,7 +208,7 @@ def write(
     pages = {
         made.report: page(values, folder / "report.html"),
         made.sources: sources_page.page(sources, config, run, folder / "sources.html"),
-        made.note: note.page(numbers, verdicts, shows, pictures, folder / "note.html"),
+        made.note: note.page(numbers, table, pictures, folder / "note.html"),
         made.ledger: ledger_page.page(ledger, symbols, impacts, folder / "ledger.html"),
     }
     for path, text in pages.items():
