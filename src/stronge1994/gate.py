@@ -84,7 +84,8 @@ def summary(
     """
     rows = verdict_table.gather(verdicts)
     ledger = tables.read_rows(LEDGER, outcome.COLUMNS) if entries else []
-    wrong, others = faults(rows, ledger, comparisons, entries), unmade(rows)
+    wrong = faults(rows, ledger, comparisons, entries)
+    others = [] if failed else unmade(rows)  # else the figures are not all drawn
     again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
     parts = [""]
     if len(verdicts) > 1:

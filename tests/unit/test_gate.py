@@ -86,6 +86,8 @@ def test_a_run_with_other_settings_is_not_judged_and_says_how_to_draw(words):
     assert last.startswith("the figures are drawn, but 10 comparisons cannot be made with these ")
     assert f"({note}); to draw" in last and last.endswith("2 figures --config mu=0.4")
     assert "FAIL" not in said and "PASSED" not in said
+    said = words("not compared", failed=["draw fig6"], **cells)  # not all is drawn
+    assert "NOT JUDGED" not in said and "failed: draw fig6" in said and "is kept" in said
 
 
 def test_a_run_that_stopped_names_its_jobs_and_what_was_judged(words):
