@@ -1,0 +1,13 @@
+"""Write the page that lays a copy of the paper under the curves of the run."""
+
+from stronge1994 import logs
+
+logs.to(snakemake.log[0])
+
+from pathlib import Path
+
+from stronge1994.pages import your_copy
+
+curves = dict(zip(snakemake.params.figures, snakemake.input.curves, strict=True))
+text = your_copy.page(snakemake.input.sources, curves, snakemake.params.series)
+Path(snakemake.output.page).write_text(text, encoding="utf-8")
