@@ -99,7 +99,7 @@ const maps = (() => {
   }
 
   // The map, or why there is none: {refused}.
-  function fit(marks, wanted = "auto") {
+  function fit(marks) {
     if (marks.length < 3) return { refused: `Set ${3 - marks.length} more of the marks: three are needed, six or more are better.` };
     const [values, pixels] = [spread(marks.map((m) => [m.x, m.y])), spread(marks.map((m) => [m.u, m.v]))];
     if (Math.min(values.width, pixels.width) < LEVEL) {
@@ -107,10 +107,6 @@ const maps = (() => {
     }
     const [affine, perspective] = ["affine", "perspective"].map((kind) =>
       2 * marks.length >= UNKNOWNS[kind] ? of_kind(kind, marks, values, pixels) : null);
-    if (wanted !== "auto") {
-      const chosen = wanted === "affine" ? affine : perspective;
-      return chosen ?? { refused: "A perspective needs four marks, of which no three lie on one line." };
-    }
     const better = perspective && (perspective.of_freedom === null ? affine.of_freedom > PIXELS
       : perspective.of_freedom < CLEARLY * affine.of_freedom);
     return better ? perspective : affine;

@@ -19,7 +19,7 @@ const page = (() => {
 
   const panel = () => DATA.panels[state.panel];
   const placed = () => state.marks.filter((mark) => mark.u !== null && Number.isFinite(mark.x) && Number.isFinite(mark.y));
-  const fitted = () => maps.fit(placed(), get("map").value);
+  const fitted = () => maps.fit(placed());
   const reading = () => state.readings[state.second ? 1 : 0];
   const lost = () => state.picture === null;
 
@@ -80,6 +80,21 @@ const page = (() => {
     get("second").disabled ||= !state.readings[0].length;
     get("undo").disabled = !past.length;
     get("trace").hidden = !get("follow").checked;
+    get(`mode-${mode}`).checked = true;
+    get("task").textContent = lost() ? "" : task(map);
+  }
+
+  // What a click does now.
+  function task(map) {
+    if (mode === "marks") {
+      const { x = null, y = null } = state.marks[state.next] ?? {};
+      return `Click where ${x === null ? "a further mark" : `${name_of(panel().x)} ${x}, ${name_of(panel().y)} ${y}`} stands.`;
+    }
+    if (map.refused) return map.refused;
+    if (mode === "look") return "Our curves lie over your copy. To read points, go to step 4.";
+    const what = get("series").selectedOptions[0]?.textContent ?? "";
+    return `${state.second ? "Second" : "First"} reading of: ${what}. ` + (get("follow").checked
+      ? "Click along the line, then “Follow it”." : "Click the middle of each marker.");
   }
 
   function draw_marks(map) {
@@ -179,6 +194,7 @@ const page = (() => {
         state.chosen = { list: "marks", i: state.next };
         const unset = state.marks.findIndex((mark) => mark.u === null);
         state.next = unset < 0 ? state.marks.length : unset;
+        if (unset < 0) mode = "look";
       });
     } else if (mode === "read" && state.series && !fitted().refused) {
       change(() => {
@@ -342,7 +358,6 @@ const page = (() => {
 
   function set_mode(wanted) {
     mode = wanted;
-    get(`mode-${mode}`).checked = true;
     if (mode === "marks" && state.chosen?.list === "points") state.chosen = null;
     draw();
   }
@@ -426,7 +441,7 @@ const page = (() => {
   function listen() {
     on("file", "change", (event) => open_file(event.target.files[0]));
     on("panel", "change", (event) => change(() => choose_panel(event.target.value)));
-    on("series", "change", () => { choose_series(); clear_points(); });
+    on("series", "change", () => { choose_series(); clear_points(); set_mode("read"); });
     on("sheet", "click", (event) => { sheet.focus({ preventScroll: true }); put(in_picture(event)); });
     on("sheet", "pointermove", (event) => {
       if (event.pointerType !== "mouse" || lost()) return;
@@ -454,8 +469,8 @@ const page = (() => {
       const i = Number(target.dataset.curve);
       state.off = target.checked ? state.off.filter((one) => one !== i) : [...state.off, i];
     }));
-    for (const id of ["map", "scale"]) on(id, "input", draw);
-    on("follow", "change", draw);
+    on("scale", "input", draw);
+    on("follow", "change", () => set_mode("read"));
     on("opacity", "input", ({ target }) => sheet.style.setProperty("--opacity", target.value));
     on("zoom", "input", set_zoom);
     window.addEventListener("resize", () => !lost() && set_zoom());
@@ -465,7 +480,7 @@ const page = (() => {
     const held = (is) => ({ key: pressed, target }) => pressed.toLowerCase() === "h" && !target.matches("input, textarea, select") && hold(is)();
     document.addEventListener("keydown", held(true));
     document.addEventListener("keyup", held(false));
-    on("second", "click", () => change(() => Object.assign(state, { second: !state.second, clicks: [], chosen: null })));
+    on("second", "click", () => change(() => Object.assign(state, { second: !state.second, clicks: [], chosen: null }), set_mode("read")));
     on("trace", "click", follow_line);
     on("clear", "click", clear_points);
     on("undo", "click", undo);
