@@ -6,7 +6,7 @@ const maps = (() => {
   const UNKNOWNS = { affine: 6, perspective: 8 };
   // A perspective is taken if it leaves less than this share of the affine map's residual for each degree of
   // freedom. Four marks leave it none: then if the affine map is this many pixels off.
-  const [CLEARLY, PIXELS] = [0.7, 1.5];
+  const [CLEARLY, PIXELS] = [0.85, 1.5];
   const LEVEL = 0.02; // width over length of what counts as a line
 
   // Gauss elimination with the largest pivots; null if the equations depend on each other.
@@ -33,7 +33,7 @@ const maps = (() => {
     const middle = [0, 1].map((i) => mean(points.map((point) => point[i])));
     const size = [0, 1].map((i) => rms(points.map((point) => point[i] - middle[i])));
     const both = mean(points.map((p) => (p[0] - middle[0]) * (p[1] - middle[1]))) / (size[0] * size[1]);
-    const width = size[0] > 0 && size[1] > 0 ? Math.sqrt((1 - Math.abs(both)) / (1 + Math.abs(both))) : 0;
+    const width = size[0] > 0 && size[1] > 0 ? Math.sqrt(Math.max(0, 1 - Math.abs(both)) / (1 + Math.abs(both))) : 0;
     return { middle, size, width };
   }
 

@@ -266,7 +266,7 @@ const page = (() => {
     });
     const origin = "two readings, root mean square of their difference over the square root of 2" +
       `${half ? "; half the width of the line" : ""}; residual of the marks`;
-    return { x, y, origin, values: pairs.length };
+    return { x, y, origin, values: half ? null : pairs.length };
   }
 
   // Points of two readings that are the same, nearest first.
@@ -349,9 +349,11 @@ const page = (() => {
 
   function set_zoom() {
     const centre = [stage.scrollLeft + stage.clientWidth / 2, stage.scrollTop + stage.clientHeight / 2].map((one) => one / zoom());
+    stage.style.height = "";
     const fit = Math.min(stage.clientWidth / picture.naturalWidth, Math.max(0.1, (stage.clientHeight - 4) / picture.naturalHeight));
     const size = fit * Number(get("zoom").value);
     Object.assign(sheet.style, { width: `${size * picture.naturalWidth}px`, height: `${size * picture.naturalHeight}px` });
+    stage.style.height = `${Math.min(stage.clientHeight, size * picture.naturalHeight) + 2}px`;
     stage.scrollTo(centre[0] * size - stage.clientWidth / 2, centre[1] * size - stage.clientHeight / 2);
     draw();
   }
@@ -379,7 +381,7 @@ const page = (() => {
       `${placed().length} marks, ${map.kind} map, residual ${map.residual.pixels.toFixed(2)} px: ${round(map.residual.x, 2)} ${unit_of(x)} along x, ` +
       `${round(map.residual.y, 2)} ${unit_of(y)} along y${state.by ? `; ${state.by}` : ""}; marks ${marks}`;
     const head = { series: state.series, who, when, from, how, sigma_x: round(found.x, 3), sigma_y: round(found.y, 3),
-      sigma_origin: found.origin, sigma_values: found.values, ...(asked ? { incidence: get("incidence").value } : {}) };
+      sigma_origin: found.origin, ...(found.values ? { sigma_values: found.values } : {}), ...(asked ? { incidence: get("incidence").value } : {}) };
     const rows = state.readings[0].map((place) => map.to_axes(place).map((value) => round(value, 6)))
       .sort((a, b) => a[0] - b[0]);
     const lines = Object.entries(head).map(([name, value]) => `# ${name}: ${`${value}`.replace(/\s+/g, " ")}`);
