@@ -17,7 +17,7 @@ from stronge1994.tables import Table
 
 Panel: TypeAlias = dict[str, Any]
 # Scripts of the page, each after those that it uses; the first is the explorer's.
-SCRIPTS = ("files.js", "map.js", "trace.js", "exports.js", "page.js")
+SCRIPTS = ("files.js", "map.js", "trace.js", "exports.js", "readings.js", "page.js")
 WORDS = ("name", "line", "series")  # of a curve
 DIGITS = 6  # of the curves, more than a print has
 
