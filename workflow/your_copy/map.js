@@ -5,8 +5,8 @@
 const maps = (() => {
   const UNKNOWNS = { affine: 6, perspective: 8 };
   // A perspective is taken if it leaves less than this share of the affine map's residual for each degree of
-  // freedom. Four marks leave it none: then if the affine map is this many pixels off.
-  const [CLEARLY, PIXELS] = [0.85, 1.5];
+  // freedom, which is more than a click can err. Four marks leave it none: then if the affine map is far off.
+  const [CLEARLY, OF_CLICKS, FAR_OFF] = [0.85, 0.25, 1.5]; // the last two in pixels
   const LEVEL = 0.02; // width over length of what counts as a line
 
   // Gauss elimination with the largest pivots; null if the equations depend on each other.
@@ -107,8 +107,8 @@ const maps = (() => {
     }
     const [affine, perspective] = ["affine", "perspective"].map((kind) =>
       2 * marks.length >= UNKNOWNS[kind] ? of_kind(kind, marks, values, pixels) : null);
-    const better = perspective && (perspective.of_freedom === null ? affine.of_freedom > PIXELS
-      : perspective.of_freedom < CLEARLY * affine.of_freedom);
+    const better = perspective && (perspective.of_freedom === null ? affine.of_freedom > FAR_OFF
+      : affine.of_freedom > OF_CLICKS && perspective.of_freedom < CLEARLY * affine.of_freedom);
     return better ? perspective : affine;
   }
 

@@ -131,16 +131,12 @@
   const style_of = ({ line }, i) => `curve c${i % 6} ${line}`;
 
   function draw_curves(map) {
-    const { curves, range } = panel();
+    const { curves } = panel();
     get("curves").innerHTML = curves.map((curve, i) => `<label><input type="checkbox" data-curve="${i}"
       ${state.off.includes(i) ? "" : "checked"}> <svg viewBox="0 0 34 8" aria-hidden="true"><path
       class="${style_of(curve, i)}" d="M0,4H34"/></svg> ${curve.name}</label>`).join("");
-    const inside = (point) => point.every((value, i) => {
-      const margin = 0.1 * spans(panel())[i];
-      return value >= range[i][0] - margin && value <= range[i][1] + margin;
-    });
     get("lines").innerHTML = map.refused ? "" : shown().map((curve) => {
-      const places = curve.x.map((x, k) => [x, curve.y[k]]).filter(inside).map(map.to_pixels);
+      const places = curve.x.map((x, k) => [x, curve.y[k]]).map(map.to_pixels);
       return `<polyline class="${style_of(curve, curve.i)}" points="${places.map(([u, v]) => `${u.toFixed(2)},${v.toFixed(2)}`).join(" ")}"/>`;
     }).join("");
   }

@@ -1,11 +1,10 @@
-"""The page that lays a reader's copy of the paper under the curves of a run, and reads its points."""
+"""The page that lays a copy of the paper under the curves of a run, and reads its points."""
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
 from markupsafe import Markup
 
 import planarimpact
@@ -23,7 +22,7 @@ DIGITS = 6  # of the curves, more than a print has
 
 
 def page(paths: Sequence[str], curves: Mapping[str, str], series: Mapping[str, Any]) -> str:
-    """The page as text, from its sources, the tables of curves by figure, and `{source/name: entry}`.
+    """The page as text, from its sources, tables of curves by figure, and `{source/name: entry}`.
 
     Without the curve that a setting of the run takes away, the page has the others.
     """
@@ -87,5 +86,6 @@ def _check(place: int, curve: Panel, spans: Sequence[Sequence[float]]) -> dict[s
     scales = [high - low for low, high in spans]
     point = [low + 0.37 * (high - low) for low, high in spans]
     line = curve["x"], curve["y"]
-    near, above = distances.curve_residuals(np.reshape(point, (2, 1)), line, (scales[0], scales[1]))
+    one = [[value] for value in point]
+    near, above = distances.curve_residuals(one, line, (scales[0], scales[1]))
     return {"curve": place, "point": point, "near": abs(float(near[0])), "above": float(above[0])}
