@@ -45,9 +45,13 @@ class Why(StrEnum):
 
 
 class Group(StrEnum):
-    """With what a curve is compared: statements of the paper, others, or our own second codes."""
+    """With what a curve is compared.
+
+    These are statements of the paper, its printed curves, others, or our own second codes.
+    """
 
     PAPER = "paper"
+    PRINTED = "printed figure"
     OTHERS = "others"
     SOLVER = "solver checked"
 

@@ -10,6 +10,7 @@ from stronge1994.goodness import ChiSquared, chi_squared
 from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.metrics import Measured
 from stronge1994.reference_data import Series
+from stronge1994.tables import with_unit
 from stronge1994.verdict_table import Group, Verdict
 
 # If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
@@ -39,6 +40,25 @@ def judge(
         if _is_good(comparison, moved, significance)[0]:
             return Verdict.CANNOT_TELL, chi2
     return Verdict.AGREES, chi2
+
+
+def judge_print(
+    comparison: Comparison, of_model: Measured, of_printed: Measured, significance: float
+) -> tuple[Verdict, str]:
+    """Verdict on a printed curve, and what it follows: the model or the printed equations."""
+    series, other = comparison.reference, comparison.or_printed
+    assert isinstance(series, Series) and other is not None
+    equations, unit = other.equations, series.ordinates[0].unit
+    verdict, _ = judge(comparison, of_model, significance)
+    follows, _ = _is_good(comparison, of_printed, significance)
+    if verdict != Verdict.FAILS:
+        alike = f"it cannot tell the model from {equations} as printed"
+        return verdict, alike if follows else f"the print follows the model, not {equations}"
+    model, printed = (with_unit(float(f"{m.sizes['rms']:.2g}"), unit) for m in (of_model, of_printed))
+    sizes = f"rms {printed}, of the model {model}"
+    if follows:
+        return Verdict.DIFFERS, f"the print follows {equations} as printed: {sizes}"
+    return verdict, f"the print follows neither {equations} as printed nor the model: {sizes}"
 
 
 def _is_good(
