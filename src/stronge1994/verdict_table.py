@@ -61,6 +61,12 @@ def gather(paths: Iterable[str]) -> list[Row]:
     return [row for path in paths for row in tables.read_rows(path, COLUMNS)]
 
 
+def known(rows: Iterable[Row]) -> list[Row]:
+    """Known differences, which have bounds; a printed curve that follows a misprint has none."""
+    differ = (row for row in rows if row["verdict"] == Verdict.DIFFERS)
+    return [row for row in differ if row["group"] != Group.PRINTED]
+
+
 def outcome(row: Row) -> str:
     """The verdict of a row, and why.
 

@@ -184,12 +184,11 @@ def test_key_numbers_are_those_of_the_tables(numbers, rows_of, first_run, invent
     def curves(figure):
         return tables.read(first_run[0] / f"results/curves/{figure}.csv")
 
-    of_solver = Counter(row["group"] == "solver checked" for row in rows_of("verdicts"))
+    judged = [row for row in rows_of("verdicts") if row["group"] != Group.PRINTED]
+    of_solver = Counter(row["group"] == Group.SOLVER for row in judged)
     assert (numbers["rows.solver"], numbers["rows.others"]) == (of_solver[True], of_solver[False])
     for column, words in (("verdict", Verdict), ("why", Why)):
-        rows = Counter(
-            (row["group"] == "solver checked", row[column]) for row in rows_of("verdicts")
-        )
+        rows = Counter((row["group"] == Group.SOLVER, row[column]) for row in judged)
         for word in words:
             assert numbers[f"rows.{word}"] == rows[False, word]
             assert numbers[f"rows.solver.{word}"] == rows[True, word]

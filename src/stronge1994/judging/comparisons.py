@@ -10,11 +10,11 @@ from pydantic.dataclasses import dataclass
 
 from planarimpact.common.arrays import Array
 from stronge1994 import reference_data, tables
+from stronge1994.names import STRONGE
 from stronge1994.reference_data import Axis, Fact, Series
 from stronge1994.tables import Table
 from stronge1994.verdict_table import Group, Why
 
-PAPER = "stronge1994"  # the source that has what the paper states
 # Parts of the axis of incidence, in order; the limits of the regimes divide it into these.
 REGIMES = ("initial stick", "slip and stick", "slip throughout")
 
@@ -135,7 +135,7 @@ class Comparison:
         All else, our second codes and laws, only checks our SOLVER.
         """
         known, reference = self.differs, self.reference
-        if reference is not None and reference.name.split("/")[0] == PAPER:
+        if reference is not None and reference.name.split("/")[0] == STRONGE:
             return Group.PAPER if isinstance(reference, Fact) else Group.PRINTED
         if isinstance(reference, Fact):
             return Group.OTHERS

@@ -85,7 +85,13 @@ def _row(
         verdict, numbers = _judged(comparison, measured, significance)
         if comparison.or_printed:
             printed = measure(comparison, as_printed(comparison, curves))
-            verdict, cells["note"] = judge_print(comparison, measured, printed, significance)
+            verdict, cells["says"] = judge_print(comparison, measured, printed, significance)
+            of_model, of_printed = (
+                with_unit(float(f"{one.sizes['rms']:.2g}"), numbers["unit"])
+                for one in (measured, printed)
+            )
+            sizes = f"rms {of_model} from the model, {of_printed} from these equations"
+            cells["note"] = f"{cells['says']}: {sizes}"
     except Exception as error:
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     cells |= numbers | {"verdict": verdict}

@@ -10,7 +10,6 @@ from stronge1994.goodness import ChiSquared, chi_squared
 from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.metrics import Measured
 from stronge1994.reference_data import Series
-from stronge1994.tables import with_unit
 from stronge1994.verdict_table import Group, Verdict
 
 # If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
@@ -45,20 +44,17 @@ def judge(
 def judge_print(
     comparison: Comparison, of_model: Measured, of_printed: Measured, significance: float
 ) -> tuple[Verdict, str]:
-    """Verdict on a printed curve, and what it follows: the model or the printed equations."""
-    series, other = comparison.reference, comparison.or_printed
-    assert isinstance(series, Series) and other is not None
-    equations, unit = other.equations, series.ordinates[0].unit
+    """Verdict on a printed curve, and what it follows: the model, the printed equations, none."""
+    other = comparison.or_printed
+    assert other is not None
     verdict, _ = judge(comparison, of_model, significance)
     follows, _ = _is_good(comparison, of_printed, significance)
     if verdict != Verdict.FAILS:
-        alike = f"it cannot tell the model from {equations} as printed"
-        return verdict, alike if follows else f"the print follows the model, not {equations}"
-    model, printed = (with_unit(float(f"{m.sizes['rms']:.2g}"), unit) for m in (of_model, of_printed))
-    sizes = f"rms {printed}, of the model {model}"
+        alike = f"it cannot tell the model from {other.equations} as printed"
+        return verdict, alike if follows else f"the print follows the model, not {other.equations}"
     if follows:
-        return Verdict.DIFFERS, f"the print follows {equations} as printed: {sizes}"
-    return verdict, f"the print follows neither {equations} as printed nor the model: {sizes}"
+        return Verdict.DIFFERS, f"the print follows {other.equations} as printed"
+    return verdict, f"the print follows neither {other.equations} as printed nor the model"
 
 
 def _is_good(
