@@ -89,8 +89,9 @@ def _printed(rows: Table) -> Iterator[Item]:
     read = rows[rows["why"] != Why.AWAITED]
     for (_, says, unit), own in read.groupby(["severity", "says", "unit"]):
         verdict, why, entry = own.iloc[0][["verdict", "why", "entry"]]
-        parts = [f"{len(own)} of {len(rows)}", says, f"rms {_rms(own, unit)}" if unit else ""]
-        size = ", ".join(filter(None, parts))
+        rms = f"rms {_rms(own, unit)}" if unit else ""
+        follows = f"{says}, {rms} from the model" if says else rms
+        size = ", ".join(filter(None, [f"{len(own)} of {len(rows)}", follows]))
         yield Item(own["comparison"].tolist(), verdict, why, entry, "", "", "", size)
 
 

@@ -73,7 +73,7 @@ TOLD = """\
 Fig. 6  rebound
  FAILS        printed curve: 1 of 6, rms 0.02 N
  differs      printed curve: 1 of 6, the print follows Eq. 25 as printed, rms
-              0.02 mu v2(0); cause known
+              0.02 mu v2(0) from the model; cause known
  not compared printed curve: 1 of 6; other settings
  agrees       printed curve: 2 of 6, rms 0.036 mu v2(0)"""
 
