@@ -45,9 +45,13 @@ class Why(StrEnum):
 
 
 class Group(StrEnum):
-    """With what a curve is compared: statements of the paper, others, or our own second codes."""
+    """With what a curve is compared.
+
+    These are statements of the paper, its printed curves, others, or our own second codes.
+    """
 
     PAPER = "paper"
+    PRINTED = "printed figure"
     OTHERS = "others"
     SOLVER = "solver checked"
 
@@ -55,6 +59,12 @@ class Group(StrEnum):
 def gather(paths: Iterable[str]) -> list[Row]:
     """Rows of several tables."""
     return [row for path in paths for row in tables.read_rows(path, COLUMNS)]
+
+
+def known(rows: Iterable[Row]) -> list[Row]:
+    """Known differences, which have bounds; a printed curve that follows a misprint has none."""
+    differ = (row for row in rows if row["verdict"] == Verdict.DIFFERS)
+    return [row for row in differ if row["group"] != Group.PRINTED]
 
 
 def outcome(row: Row) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from planarimpact.common.arrays import Array
 from stronge1994 import tables
@@ -67,6 +68,18 @@ def measure(comparison: Comparison, curves: Table) -> Measured:
     if isinstance(reference, Fact):
         return _from_fact(comparison, reference, curves)
     return _LAWS[comparison.metric](comparison, curves)
+
+
+def as_printed(comparison: Comparison, curves: Table) -> Table:
+    """The curve of a comparison with the stretch where the printed equations give another one."""
+    series, other = comparison.reference, comparison.or_printed
+    assert isinstance(series, Series) and other is not None
+    own, printed = (tables.select(curves, **c) for c in (comparison.curve, other.curve))
+    tables.only_curve(own)
+    x, stretch = series.x.name, printed[series.x.name]
+    stretched = printed.assign(**{key: own[key].iloc[0] for key in tables.KEYS})
+    before, after = own[own[x] <= stretch.min()], own[own[x] >= stretch.max()]
+    return pd.concat([before, stretched, after], ignore_index=True)
 
 
 def _from_points(comparison: Comparison, series: Series, curves: Table) -> Measured:

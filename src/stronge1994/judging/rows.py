@@ -14,8 +14,8 @@ import pandas as pd
 from stronge1994 import tables
 from stronge1994.formulas import plain
 from stronge1994.judging.comparisons import Comparison
-from stronge1994.judging.metrics import Measured, measure, rms_and_max
-from stronge1994.judging.verdicts import judge
+from stronge1994.judging.metrics import Measured, as_printed, measure, rms_and_max
+from stronge1994.judging.verdicts import judge, judge_print
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table, with_unit
 from stronge1994.verdict_table import COLUMNS, Verdict, Why
@@ -83,11 +83,22 @@ def _row(
     try:
         measured = measure(comparison, curves)
         verdict, numbers = _judged(comparison, measured, significance)
+        if comparison.or_printed:
+            printed = measure(comparison, as_printed(comparison, curves))
+            verdict, cells["says"] = judge_print(comparison, measured, printed, significance)
+            of_model, of_printed = (
+                with_unit(float(f"{one.sizes['rms']:.2g}"), numbers["unit"])
+                for one in (measured, printed)
+            )
+            sizes = f"rms {of_model} from the model, {of_printed} from these equations"
+            cells["note"] = f"{cells['says']}: {sizes}"
     except Exception as error:
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     cells |= numbers | {"verdict": verdict}
     if verdict == Verdict.DIFFERS and known:
         cells |= {"why": known.why, "paper": known.paper}
+    elif verdict == Verdict.DIFFERS and comparison.or_printed:
+        cells |= {"why": Why.KNOWN, "entry": comparison.or_printed.entry}
     elif verdict == Verdict.FAILS and len(measured.at) > 1:
         cells["note"] = "; ".join(filter(None, (cells.get("note"), _place(measured))))
     of = measured.curves or cells["curve"]

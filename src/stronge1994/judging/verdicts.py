@@ -41,6 +41,22 @@ def judge(
     return Verdict.AGREES, chi2
 
 
+def judge_print(
+    comparison: Comparison, of_model: Measured, of_printed: Measured, significance: float
+) -> tuple[Verdict, str]:
+    """Verdict on a printed curve, and what it follows: the model, the printed equations, none."""
+    other = comparison.or_printed
+    assert other is not None
+    verdict, _ = judge(comparison, of_model, significance)
+    follows, _ = _is_good(comparison, of_printed, significance)
+    if verdict != Verdict.FAILS:
+        alike = f"it cannot tell the model from {other.equations} as printed"
+        return verdict, alike if follows else f"the print follows the model, not {other.equations}"
+    if follows:
+        return Verdict.DIFFERS, f"the print follows {other.equations} as printed"
+    return verdict, f"the print follows neither {other.equations} as printed nor the model"
+
+
 def _is_good(
     comparison: Comparison, measured: Measured, significance: float
 ) -> tuple[bool, ChiSquared | None]:

@@ -110,6 +110,7 @@ class Series:
     figure: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
     settings: dict[str, Any] = field(default_factory=dict)
+    open: tuple[str, ...] = ()
 
     @property
     def ordinates(self) -> tuple[Axis, ...]:
