@@ -100,7 +100,9 @@ def chance(row: Row) -> str:
     if row["degrees of sigma"]:
         values = f"{row['degrees of sigma']} values"
         return f"F test, as sigma is estimated from {values}: p = {row['p']}"
-    return f"chi^2 {row['chi^2']} of {row['degrees of freedom']} points: p = {row['p']}"
+    degrees, points = row["degrees of freedom"], row["points"]
+    of = f"{degrees} points" if degrees == points else f"{degrees} degrees of freedom"
+    return f"chi^2 {row['chi^2']} of {of}: p = {row['p']}"
 
 
 def problem(row: Row) -> str:

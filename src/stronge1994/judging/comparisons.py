@@ -89,7 +89,8 @@ class Comparison:
     `points`, in the `regime`. `says` is what the reference says, for readers. A comparison, like a
     reference, may be for some `settings` of the figure alone. A known difference has `bounds` about
     what was found, of its `rms`, `max` or `difference` in the unit of the axis. They guard against
-    changes, and say nothing on what is right.
+    changes, and say nothing on what is right. Comparisons with the same `scale` share one that is
+    fitted, see `judging.scales`.
     """
 
     name: str
@@ -101,6 +102,7 @@ class Comparison:
     points: dict[str, Any] = field(default_factory=dict)
     regime: str = ""  # one of `REGIMES`
     allowance: Allowance | None = None
+    scale: str = ""
     landmark: Landmark | None = None
     columns: list[str] = field(default_factory=list)
     range: tuple[float, float] | None = None

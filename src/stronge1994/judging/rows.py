@@ -13,6 +13,7 @@ import pandas as pd
 
 from stronge1994 import tables
 from stronge1994.formulas import plain
+from stronge1994.judging import scales
 from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.metrics import Measured, as_printed, measure, rms_and_max
 from stronge1994.judging.verdicts import judge, judge_print
@@ -44,7 +45,9 @@ def compare(
     curves = read(path)
     every = [Comparison.of(title, entry, references) for title, entry in comparisons.items()]
     return [
-        dict.fromkeys(COLUMNS, "") | {"figure": name} | _row(one, curves, significance, settings)
+        dict.fromkeys(COLUMNS, "")
+        | {"figure": name}
+        | _row(one, curves, significance, settings, scales.sharing(one, every, settings))
         for one in every
     ]
 
@@ -59,9 +62,16 @@ def read(path: str) -> Table:
 
 
 def _row(
-    comparison: Comparison, curves: Table, significance: float, settings: Mapping[str, Any]
+    comparison: Comparison,
+    curves: Table,
+    significance: float,
+    settings: Mapping[str, Any],
+    sharing: Sequence[Comparison],
 ) -> VerdictRow:
-    """Cells of one comparison: what was measured, and the verdict on it."""
+    """Cells of one comparison: what was measured, and the verdict on it.
+
+    `sharing` are all comparisons that share its scale.
+    """
     reference, known = comparison.reference, comparison.differs
     cells: VerdictRow = {
         "comparison": comparison.name,
@@ -81,7 +91,7 @@ def _row(
     if known:
         cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
-        measured = measure(comparison, curves)
+        measured, scale = scales.measure(comparison, curves, sharing)
         verdict, numbers = _judged(comparison, measured, significance)
         if comparison.or_printed:
             printed = measure(comparison, as_printed(comparison, curves))
@@ -95,12 +105,14 @@ def _row(
     except Exception as error:
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     cells |= numbers | {"verdict": verdict}
+    place = ""
     if verdict == Verdict.DIFFERS and known:
         cells |= {"why": known.why, "paper": known.paper}
     elif verdict == Verdict.DIFFERS and comparison.or_printed:
         cells |= {"why": Why.KNOWN, "entry": comparison.or_printed.entry}
     elif verdict == Verdict.FAILS and len(measured.at) > 1:
-        cells["note"] = "; ".join(filter(None, (cells.get("note"), _place(measured))))
+        place = _place(measured)
+    cells["note"] = "; ".join(filter(None, (cells.get("note"), scale, place)))
     of = measured.curves or cells["curve"]
     own = comparison.name, of, measured.quantity, measured.at, measured.sigmas
     return cells | {"residuals": pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))}
@@ -136,7 +148,7 @@ def _judged(
         values = measured.plain + sum(comparison.range) / 2
         cells["found"] = f"{values.min():.3g} to {values.max():.3g}"
     if chi2:
-        cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
+        cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": f"{round(chi2.degrees, 1):g}"}
         cells |= {"degrees of sigma": chi2.of_sigma or "", "p": f"{chi2.p:.2g}"}
     return verdict, cells
 

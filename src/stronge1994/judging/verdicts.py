@@ -1,7 +1,9 @@
 """From distances to a verdict: chi-squared for published points, a tolerance for all others.
 
 Published points that agree with a curve are evidence only if they could have disagreed. So the
-verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas.
+verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas. A fitted scale stays as
+it was for them: it would follow any shift that looks like another scale, and the question is
+whether the test notices differences of that size in the shape, which no scale explains.
 """
 
 import numpy as np
@@ -63,6 +65,8 @@ def _is_good(
     """Whether distances are small enough, and chi-squared of published points."""
     reference = comparison.reference
     if isinstance(reference, Series) and reference.is_published:
-        chi2 = chi_squared(measured.sigmas, measured.shifts, reference.sigma_values)
+        chi2 = chi_squared(
+            measured.sigmas, measured.shifts, reference.sigma_values, measured.fitted
+        )
         return chi2.p > significance, chi2
     return bool(np.abs(measured.sigmas).max() <= 1.0), None
