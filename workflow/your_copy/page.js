@@ -86,6 +86,7 @@
     for (const id of ["trace", "save", "export-take"]) get(id).disabled = closed || map.refused || !state.series;
     get("second").disabled = !state.readings[0].length;
     get("second").textContent = state.second ? "Back to the first reading" : "Read a second time";
+    get("with-incidence").hidden = !chosen_series()?.open.includes("incidence");
     get("picture").disabled = closed;
     get("undo").disabled = !past.length;
     get("trace").hidden = !get("follow").checked;
@@ -345,12 +346,11 @@
   }
 
   function show_panel() {
-    const { series, scale, asks } = panel();
+    const { series, scale } = panel();
     get("panel").value = state.panel;
     get("series").replaceChildren(...series.map(({ id, name }) => new Option(name, id, false, id === state.series)));
     get("no-series").hidden = series.length > 0;
     get("with-scale").hidden = !scale;
-    get("with-incidence").hidden = !asks;
     draw();
   }
 

@@ -44,7 +44,7 @@ def _panel(panel: Panel, table: Table, series: Mapping[str, Any]) -> Panel:
     curves = [own for stated in panel["curves"] for own in _curves(stated, panel, table)]
     named = [*markers, *(one["series"] for one in curves if "series" in one)]
     check = [_check(place, curve, panel["range"]) for place, curve in enumerate(curves)]
-    found = [_readable(full, series[full], full not in markers) for full in named if full in series]
+    found = [_readable(full, series[full], full not in markers) for full in named]
     return panel | {"curves": curves, "series": found, "check": check}
 
 
