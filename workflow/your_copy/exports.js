@@ -9,7 +9,7 @@ const exports_of_others = (() => {
 
   const cells_of = (line, separator) =>
     line.trim().split(separator).map((cell) => cell.trim().replace(/^"(.*)"$/, "$1").trim());
-  const is_number = (cell) => NUMBER.test(cell);
+  const is_number = (cell) => NUMBER.test(cell) && Number.isFinite(Number(cell.replace("\u2212", "-")));
   // With decimal commas as points, where commas do not stand between cells.
   const with_points = (cells, separator) =>
     separator.source === "," ? cells : cells.map((cell) => (WITH_COMMA.test(cell) ? cell.replace(",", ".") : cell));
@@ -29,15 +29,17 @@ const exports_of_others = (() => {
     if (!best.count) return { refused: `No two columns of numbers in “${lines[0].line.trim().slice(0, 40)}”.` };
     const first = best.rows.findIndex(({ cells }) => all_numbers(cells));
     const [head, rows] = [best.rows.slice(0, first), best.rows.slice(first)];
-    const wrong = rows.find(({ cells }) => !all_numbers(cells));
+    // A line above the numbers has names; one that has a number too is a damaged row.
+    const wrong = head.find(({ cells }) => cells.some(is_number)) ?? rows.find(({ cells }) => !all_numbers(cells));
     if (wrong) {
       const cell = wrong.cells.find((one) => one !== "" && !is_number(one));
       return { refused: `Line ${wrong.number}: “${cell}” is no number.` };
     }
     const width = Math.max(...rows.map(({ cells }) => cells.length));
     const names = head.at(-1)?.cells ?? [];
-    if (best.separator.source === "," && names.length > 1 && width === 2 * names.length) {
-      return { refused: "These are decimal commas, with commas between cells too. Export with decimal points." };
+    const whole = rows.every(({ cells }) => cells.every((cell) => !cell.includes(".")));
+    if (best.separator.source === "," && width === 4 && names.length !== width && whole) {
+      return { refused: "These seem to be decimal commas, with commas between cells too. Export with decimal points." };
     }
     // WebPlotDigitizer has the names of data sets above X, Y, X, Y, each above the first of its two.
     const above = head.length > 1 ? head.at(-2).cells : [];

@@ -108,19 +108,24 @@
   }
 
   function draw_marks(map) {
-    const focused = document.activeElement.closest("#marks input, #marks button");
-    const row = (mark, i) => {
+    const [body] = get("marks").tBodies;
+    const field = (axis, i) => `<td><input class="mark-${axis}" data-mark="${i}" inputmode="decimal"
+      aria-label="${axis} of mark ${i + 1}"></td>`;
+    // Rows are kept while their number is the same: who types would lose the field.
+    if (body.rows.length !== state.marks.length) {
+      body.innerHTML = state.marks.map((_, i) => `<tr><td><button type="button" class="mark-pick" data-mark="${i}"
+        aria-label="Set mark ${i + 1} with the next click">${i + 1}</button></td>${field("x", i)}${field("y", i)}<td></td>
+        <td></td><td><button type="button" class="mark-drop" data-mark="${i}" aria-label="Remove mark ${i + 1}">×</button></td>
+        </tr>`).join("");
+    }
+    state.marks.forEach((mark, i) => {
+      const [, x, y, place, beside] = body.rows[i].cells;
       const off = map.off?.[placed().indexOf(mark)];
-      const field = (axis) => `<td><input class="mark-${axis}" data-mark="${i}" inputmode="decimal"
-        aria-label="${axis} of mark ${i + 1}" value="${mark[axis] ?? ""}"></td>`;
-      return `<tr${i === state.next && mode === "marks" ? ' class="next"' : ""}><td><button type="button"
-        class="mark-pick" data-mark="${i}" aria-label="Set mark ${i + 1} with the next click">${i + 1}</button></td>
-        ${field("x")}${field("y")}<td>${mark.u === null ? "not set" : `${mark.u.toFixed(1)}, ${mark.v.toFixed(1)}`}</td>
-        <td>${off ? Math.hypot(off.u, off.v).toFixed(2) : ""}</td><td><button type="button" class="mark-drop"
-        data-mark="${i}" aria-label="Remove mark ${i + 1}">×</button></td></tr>`;
-    };
-    get("marks").tBodies[0].innerHTML = state.marks.map(row).join("");
-    if (focused) get("marks").querySelector(`.${focused.className}[data-mark="${focused.dataset.mark}"]`)?.focus();
+      body.rows[i].className = i === state.next && mode === "marks" ? "next" : "";
+      [x.firstChild.value, y.firstChild.value] = [mark.x ?? "", mark.y ?? ""];
+      place.textContent = mark.u === null ? "not set" : `${mark.u.toFixed(1)}, ${mark.v.toFixed(1)}`;
+      beside.textContent = off ? Math.hypot(off.u, off.v).toFixed(2) : "";
+    });
     get("fit").className = map.refused && placed().length > 2 ? "bad" : "";
     if (map.refused) return get("fit").replaceChildren(map.refused);
     const quality = map.of_freedom === null ? ". A further mark would show how good it is."

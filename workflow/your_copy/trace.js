@@ -72,7 +72,8 @@ const trace = (() => {
         if (Math.hypot(...rest) < 1.5 * STEP || (Math.hypot(...rest) < 2 * reach && rest[0] * way[0] + rest[1] * way[1] < 0)) break;
         here = [here[0] + STEP * way[0], here[1] + STEP * way[1]];
       }
-      if (left <= 0) return { points, lost: here };
+      // Another line leads past the click.
+      if (left <= 0 || Math.hypot(goal[0] - here[0], goal[1] - here[1]) > reach) return { points, lost: here };
     }
     if (!points.length) return { points, lost: clicks[0] };
     const every = Math.max(1, Math.ceil(points.length / COUNT));
