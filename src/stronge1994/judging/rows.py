@@ -15,7 +15,7 @@ from stronge1994 import tables
 from stronge1994.formulas import plain
 from stronge1994.judging import scales
 from stronge1994.judging.comparisons import Comparison
-from stronge1994.judging.metrics import Measured, rms_and_max
+from stronge1994.judging.metrics import Measured, measure, rms_and_max
 from stronge1994.judging.verdicts import judge
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table, with_unit
@@ -91,17 +91,19 @@ def _row(
     if known:
         cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
-        measured, scale = scales.measure(comparison, curves, sharing)
+        if comparison.scale:
+            measured = scales.measure(comparison, curves, sharing)
+        else:
+            measured = measure(comparison, curves)
         verdict, numbers = _judged(comparison, measured, significance)
     except Exception as error:
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     cells |= numbers | {"verdict": verdict}
-    place = ""
+    cells["note"] = "; ".join(filter(None, (cells.get("note"), measured.note)))
     if verdict == Verdict.DIFFERS and known:
         cells |= {"why": known.why, "paper": known.paper}
     elif verdict == Verdict.FAILS and len(measured.at) > 1:
-        place = _place(measured)
-    cells["note"] = "; ".join(filter(None, (cells.get("note"), scale, place)))
+        cells["note"] = "; ".join(filter(None, (cells["note"], _place(measured))))
     of = measured.curves or cells["curve"]
     own = comparison.name, of, measured.quantity, measured.at, measured.sigmas
     return cells | {"residuals": pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))}
