@@ -27,7 +27,7 @@ class Measured(NamedTuple):
     one `scales` has the sigma in the unit of its axis, `columns` its column, and `curves` its
     curve, if that is not the only one. `shifts` has a row for each uncertain parameter: the change
     of all `sigmas` if it is off by one sigma. `fitted` is how many parameters were fitted to these
-    points: a part of one that others share, see `judging.scales`.
+    points: a part of one that others share, see `judging.scales`, of which `note` tells.
     """
 
     quantity: str
@@ -39,6 +39,7 @@ class Measured(NamedTuple):
     curves: Sequence[str] = ()
     shifts: Array = np.zeros((0, 0))
     fitted: float = 0
+    note: str = ""
 
     @property
     def worst(self) -> int:

@@ -91,7 +91,10 @@ def _row(
     if known:
         cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
-        measured, scale = scales.measure(comparison, curves, sharing)
+        if comparison.scale:
+            measured = scales.measure(comparison, curves, sharing)
+        else:
+            measured = measure(comparison, curves)
         verdict, numbers = _judged(comparison, measured, significance)
         if comparison.or_printed:
             printed = measure(comparison, as_printed(comparison, curves))
@@ -105,14 +108,13 @@ def _row(
     except Exception as error:
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     cells |= numbers | {"verdict": verdict}
-    place = ""
+    cells["note"] = "; ".join(filter(None, (cells.get("note"), measured.note)))
     if verdict == Verdict.DIFFERS and known:
         cells |= {"why": known.why, "paper": known.paper}
     elif verdict == Verdict.DIFFERS and comparison.or_printed:
         cells |= {"why": Why.KNOWN, "entry": comparison.or_printed.entry}
     elif verdict == Verdict.FAILS and len(measured.at) > 1:
-        place = _place(measured)
-    cells["note"] = "; ".join(filter(None, (cells.get("note"), scale, place)))
+        cells["note"] = "; ".join(filter(None, (cells["note"], _place(measured))))
     of = measured.curves or cells["curve"]
     own = comparison.name, of, measured.quantity, measured.at, measured.sigmas
     return cells | {"residuals": pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))}

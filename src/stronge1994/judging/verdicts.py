@@ -17,6 +17,8 @@ from stronge1994.verdict_table import Group, Verdict
 # If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
 # curve is wrong. A comparison that does not notice it says less than the picture.
 VISIBLE_SHIFT = 2.0
+# Values from which sigmas are as good as known: the F test has the p of chi-squared.
+ALL_KNOWN = 1000
 
 
 def judge(
@@ -65,8 +67,20 @@ def _is_good(
     """Whether distances are small enough, and chi-squared of published points."""
     reference = comparison.reference
     if isinstance(reference, Series) and reference.is_published:
-        chi2 = chi_squared(
-            measured.sigmas, measured.shifts, reference.sigma_values, measured.fitted
-        )
+        values = _values_of_sigma(comparison, measured, reference.sigma_values)
+        chi2 = chi_squared(measured.sigmas, measured.shifts, values, measured.fitted)
         return chi2.p > significance, chi2
     return bool(np.abs(measured.sigmas).max() <= 1.0), None
+
+
+def _values_of_sigma(comparison: Comparison, measured: Measured, values: int | None) -> int | None:
+    """From how many values the sigmas are as good as estimated, None if as good as known.
+
+    An allowance is known, and only the rest of the variance was estimated: so they are as good as
+    from more values (Welch 1947, Satterthwaite 1946).
+    """
+    if values is None or comparison.allowance is None:
+        return values
+    estimated = 1.0 - (comparison.allowance.y / measured.scales) ** 2
+    effective = values / max(float(np.mean(estimated**2)), values / ALL_KNOWN)
+    return round(effective) if effective < ALL_KNOWN else None
