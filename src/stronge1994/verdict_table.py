@@ -93,13 +93,13 @@ def chance(row: Row) -> str:
 
     >>> row = {"chi^2": "242", "degrees of freedom": "5", "degrees of sigma": "4", "p": "0.0011"}
     >>> chance(row)
-    'F test, as sigma is estimated from 4 values: p = 0.0011'
+    'F test, sigma as good as from 4 values: p = 0.0011'
     """
     if not row["p"]:
         return ""
     if row["degrees of sigma"]:
         values = f"{row['degrees of sigma']} values"
-        return f"F test, as sigma is estimated from {values}: p = {row['p']}"
+        return f"F test, sigma as good as from {values}: p = {row['p']}"
     degrees, points = row["degrees of freedom"], row["points"]
     of = f"{degrees} points" if degrees == points else f"{degrees} degrees of freedom"
     return f"chi^2 {row['chi^2']} of {of}: p = {row['p']}"

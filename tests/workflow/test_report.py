@@ -291,7 +291,7 @@ VERDICTS = [
 ]
 TOLD = """
 FAILS Far Maw 1976: rebound rms 0.02, max 0.03 μv2(0) (9 sigma); 4 points
-F test, as sigma is estimated from 5 values: p = 0.6 max ≤ 1 N It is so.
+F test, sigma as good as from 5 values: p = 0.6 max ≤ 1 N It is so.
 not compared points awaited Later Cross 2014: a max ≤ 1 N It is so.
 differs cause known Known Maw 1976: rebound rms 0.02, max 0.03 μv2(0); 4 points
 max ≤ 1 N not to fail: 1 ≤ rms ≤ 2 N Ledger: Eq. 25. It is so.
