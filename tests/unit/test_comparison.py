@@ -243,7 +243,7 @@ span,passed,,3,0.5,0.5,N,,,,,0.5,0.5,0.5 to 0.5,
 fact,differs,cause known,1,0.5,0.5,N,,,,,2,2,0.5,1 N
 sign,FAILS,,1,0.5,0.5,N,,,,,inf,inf,0.5,< 0
 points,cannot tell,,3,1.41,2,N,10.8,3,31,0.024,2.83,4,,
-same,FAILS,,3,1.41,2,N,10.8,3,4,0.12,2.83,4,,
+same,FAILS,,3,1.41,2,N,10.8,3,31,0.024,2.83,4,,
 later,not compared,points awaited,,,,,,,,,,,,
 both,FAILS,,4,1.41,2,N,,,,,3.16,4,,
 other,not compared,other settings,,,,,,,,,,,,
