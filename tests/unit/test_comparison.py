@@ -320,7 +320,7 @@ def test_a_row_has_what_was_measured(tmp_path):
     assert by_name["fact"]["bounds"] == "-0.6 <= difference <= -0.4 N"
     measured = "rms 1.41, max 2 N (2.83 sigma); 3 points"
     assert verdict_table.measured(by_name["points"]) == measured
-    changed = "p = 0.12; allowed is a known difference with 2 <= rms <= 3 N"
+    changed = "p = 0.024; allowed is a known difference with 2 <= rms <= 3 N"
     said = verdict_table.problem(by_name["same"])
     assert said.startswith(f"{NOTES['same']}: {measured}; F test") and said.endswith(changed)
     write(rows, tmp_path / "verdicts.csv", tmp_path / "residuals.csv")
