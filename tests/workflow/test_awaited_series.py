@@ -4,6 +4,8 @@ The points are made up from the solver's own curves, and never enter data/. Thes
 load and compare as the jobs of a run do; a whole run is in test_run.py.
 """
 
+import shutil
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -14,7 +16,7 @@ from stronge1994 import settings as figure_settings
 from stronge1994.figures.fig8 import curves as fig8
 from stronge1994.judging import compare
 from stronge1994.reference_data import Series
-from tests.workflow.project import ROOT, awaited, config, schema
+from tests.workflow.project import ROOT, awaited, config, head, schema
 
 CONFIG = config()
 RUBBER, LEWIS = "johnson1983/rubber_sphere", "lewis_rogers1988"
@@ -22,17 +24,6 @@ NORMAL, FRICTION = f"{LEWIS}/normal_force", f"{LEWIS}/friction_force"
 # The awaited measurements, and what is compared with each; printed curves: test_comparison.py.
 AWAITED = {CONFIG["comparisons"][name]["reference"]: name for name in awaited()}
 AWAITED = {full: name for full, name in AWAITED.items() if not full.startswith("stronge1994/")}
-
-
-def filled(source, counts):
-    """The source.yaml of awaited series, which says that they are digitised."""
-    text = (ROOT / f"data/{source}/source.yaml").read_text()
-    for series, points in counts.items():
-        awaited = f"  {series}:\n    kind: awaited\n"
-        assert awaited in text
-        said = f"    points: {points}\n    digitised_by: a test, with made-up points\n"
-        text = text.replace(awaited, f"  {series}:\n    kind: digitised\n{said}")
-    return text
 
 
 @pytest.fixture(scope="module")
@@ -55,14 +46,14 @@ def judged(inventory, curves, tmp_path):
 
     def rows(points):
         source = min(points).split("/")[0]
-        figure, counts = AWAITED[min(points)].split("-")[0], {}
+        figure = AWAITED[min(points)].split("-")[0]
         (tmp_path / source).mkdir(exist_ok=True)
+        shutil.copy(ROOT / f"data/{source}/source.yaml", tmp_path / source)
         for name, (x, y) in points.items():
-            series = name.split("/")[1]
-            known, counts[series] = Series(**inventory[source]["series"][series]), len(x)
-            table = pd.DataFrame({known.x.name: x, known.y.name: y})
-            table.to_csv(tmp_path / f"{name}.csv", index=False)
-        (tmp_path / source / "source.yaml").write_text(filled(source, counts))
+            known = Series(**inventory[source]["series"][name.split("/")[1]])
+            table = pd.DataFrame({known.x.name: x, known.y.name: y}).to_csv(index=False)
+            sigmas = {"sigma_x": known.x.sigma, "sigma_y": known.y.sigma}
+            (tmp_path / f"{name}.csv").write_text(head(**sigmas) + table)
         found = inventory | {source: reference_data.load(tmp_path / source, schema("source"))}
         references = figure_settings.references(CONFIG, found, figure)
         path = curves / f"{figure}.csv"

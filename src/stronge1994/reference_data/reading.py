@@ -13,20 +13,20 @@ from typing import Any
 
 from stronge1994.reference_data.series import NUMBER, SourceError, head_and_table, text_of
 
-# What a head must have, and what belongs there.
-OF_SIGMA = "one standard deviation, in the unit of this axis, a positive number as 0.012,"
+# What a head must have, and what is needed there.
+OF_SIGMA = "one standard deviation, in the unit of this axis, a positive number as 0.012"
 WANTED = {
     "who": "the name of who read the points",
-    "when": "the day of the reading, as 2026-11-28, not a later one than today,",
-    "from": "what was read, as Fig. 5, p. 444 of my copy, scanned at 300 dpi,",
-    "how": "the program, and how it was calibrated,",
+    "when": "the day of the reading, as 2026-11-28, not a later one than today",
+    "from": "what was read, as Fig. 5, p. 444 of my copy, scanned at 300 dpi",
+    "how": "the program, and how it was calibrated",
     "sigma_x": OF_SIGMA,
     "sigma_y": OF_SIGMA,
-    "sigma_origin": "where sigma comes from, as two readings, in 10 characters or more,",
+    "sigma_origin": "where sigma comes from, as two readings, in 10 characters or more",
 }
 # What it may have.
-MORE = {"series": "", "sigma_values": "on how many values sigma rests, a whole number from 1 on,"}
-OF_SETTING = "for which value the points hold, a positive number as 0.83,"
+MORE = {"series": "", "sigma_values": "on how many values sigma rests, a whole number from 1 on"}
+OF_SETTING = "for which value the points hold, a positive number as 0.83"
 # Fewest characters of texts; the schema asks the same of an origin of sigma.
 LEAST = {"who": 3, "from": 3, "how": 3, "sigma_origin": 10}
 PLACEHOLDER = re.compile(
@@ -70,7 +70,7 @@ def _head(file: Path, wanted: Mapping[str, str]) -> dict[str, str]:
                 f"{where} {key[:60]!a} is no key of a head; allowed are {', '.join(allowed)}"
             )
         if colon and key != "series" and not _is_admissible(key, value):
-            raise SourceError(f"{where} {key} = {value[:60]!a}: {allowed[key]} belongs there")
+            raise SourceError(f"{where} {key} = {value[:60]!a}; needed is {allowed[key]}")
         if colon:
             head[key] = value
     if not head:
@@ -80,7 +80,7 @@ def _head(file: Path, wanted: Mapping[str, str]) -> dict[str, str]:
         )
     for key, what in wanted.items():
         if key not in head:
-            raise SourceError(f"{file}: a line `# {key}:` is missing: {what} belongs there")
+            raise SourceError(f"{file}: a line `# {key}:` is missing; needed is {what}")
     return head
 
 
