@@ -6,8 +6,10 @@ logs.to(snakemake.log[0])
 
 from pathlib import Path
 
+import planarimpact
 from stronge1994.pages import your_copy
 
 curves = dict(zip(snakemake.params.figures, snakemake.input.curves, strict=True))
-text = your_copy.page(snakemake.input.sources, curves, snakemake.params.series)
+version = planarimpact.__version__
+text = your_copy.page(snakemake.input.sources, curves, snakemake.params.series, version)
 Path(snakemake.output.page).write_text(text, encoding="utf-8")

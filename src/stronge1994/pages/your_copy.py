@@ -7,7 +7,6 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
-import planarimpact
 from stronge1994 import tables
 from stronge1994.judging import distances
 from stronge1994.pages import templates
@@ -21,7 +20,9 @@ WORDS = ("name", "line", "series")  # of a curve
 DIGITS = 6  # of the curves, more than a print has
 
 
-def page(paths: Sequence[str], curves: Mapping[str, str], series: Mapping[str, Any]) -> str:
+def page(
+    paths: Sequence[str], curves: Mapping[str, str], series: Mapping[str, Any], version: str
+) -> str:
     """The page as text, from its sources, tables of curves by figure, and `{source/name: entry}`.
 
     Without the curve that a setting of the run takes away, the page has the others.
@@ -31,7 +32,7 @@ def page(paths: Sequence[str], curves: Mapping[str, str], series: Mapping[str, A
     read = {figure: tables.read(path) for figure, path in curves.items()}
     panels = {name: _panel(panel, read[panel["figure"]], series) for name, panel in stated.items()}
     folder = next(Path(path).parent for path in paths if path.endswith("your_copy.html"))
-    data = json.dumps({"version": planarimpact.__version__, "panels": panels}, ensure_ascii=False)
+    data = json.dumps({"version": version, "panels": panels}, ensure_ascii=False)
     template = templates.environment(folder).get_template("your_copy.html")
     return template.render(
         sources=texts, panels=panels, scripts=SCRIPTS, data=Markup(data.replace("</", "<\\/"))

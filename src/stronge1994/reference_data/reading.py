@@ -72,7 +72,7 @@ def _head(file: Path, wanted: Mapping[str, str]) -> dict[str, str]:
         if colon and key != "series" and not _is_admissible(key, value):
             raise SourceError(f"{where} {key} = {value[:60]!a}; needed is {allowed[key]}")
         if colon:
-            head[key] = value
+            head[key] = value.replace("$", "")  # which begins a formula on the pages
     if not head:
         raise SourceError(
             f"{file}: lines as `# who: Ada Reader` are missing above the table, with "
