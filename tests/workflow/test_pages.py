@@ -93,7 +93,7 @@ def dead_links(folder, names):
                 wrong = wrong_state(parsed(target).controls, anchor)
                 dead += [(name, link, wrong)] if wrong else []
             elif target.name == "your_copy.html" and anchor.startswith("fig"):
-                panels = [panel["value"] for panel in parsed(target).controls["panel"]["options"]]
+                panels = parsed(target).controls["panel"]["options"]
                 if not any(panel.startswith(anchor) for panel in panels):
                     dead.append((name, link, "no such figure"))
             elif anchor and unquote(anchor) not in parsed(target).ids:
