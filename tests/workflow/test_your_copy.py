@@ -240,3 +240,12 @@ def test_curves_are_hidden_marks_moved_and_the_picture_saved_on_a_phone_too(open
     assert page.evaluate("document.scrollingElement.scrollWidth") <= 390
     page.set_input_files("#file", {"name": "a.pdf", "mimeType": "application/pdf", "buffer": b"%"})
     assert "PDF" in reader.text("#refused")
+
+
+def test_a_page_whose_distances_are_wrong_says_so(tab, first_run, tmp_path):
+    text = (first_run[0] / "figures/your_copy.html").read_text(encoding="utf-8")
+    for changed, wrong in ((text, 0), (re.sub(r'"near": \d', '"near": 7', text, count=1), 1)):
+        (tmp_path / "page.html").write_text(changed, encoding="utf-8")
+        tab.open((tmp_path / "page.html").as_uri())
+        said = tab.page.text_content("#refused")
+        assert ("Do not trust" in said and f" {wrong} of " in said) if wrong else said == ""

@@ -235,7 +235,8 @@
   }
 
   function press(event) {
-    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") undo();
+    const writes = event.target.matches("input:not([type=checkbox], [type=radio], [type=range]), textarea");
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z" && !writes) undo();
     else if (event.target !== sheet || !picture.naturalWidth) return;
     else if (event.key in ARROWS) nudge(ARROWS[event.key].map((one) => one * (event.shiftKey ? 10 : 0.1)));
     else if (event.key === "Enter") put(state.cursor ?? [picture.naturalWidth / 2, picture.naturalHeight / 2]);
@@ -298,6 +299,9 @@
       sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
       for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
       document.body.classList.add("opened");
+      // Marks and points are places in the picture before.
+      state = { ...fresh(state.panel), series: state.series, off: state.off };
+      past.length = 0;
       dark = null;
       refuse("");
       mode = "marks";
