@@ -83,7 +83,7 @@ def measured(row: Row) -> str:
     if not row["points"]:
         return ""
     size = f"rms {row['rms']}, max {with_unit(float(row['max']), row['unit'])}"
-    sigmas = f" ({row['rms [sigma]']} sigma)" if row["p"] else ""
+    sigmas = f" (rms {row['rms [sigma]']} sigma)" if row["p"] else ""
     count = f"{row['points']} point" + ("" if row["points"] == "1" else "s")
     return f"{size}{sigmas}; {count}"
 
@@ -117,7 +117,11 @@ def text(rows: Sequence[Row]) -> str:
     """The rows of one figure for a terminal."""
     told = []
     for row in rows:
-        parts = [measured(row), row["reference"], row["why"], row["entry"]]
+        of = (
+            f"{row['reference']} and the curve {row['curve']}" if row["curve"] else row["reference"]
+        )
+        asked = f"to agree: {row['allowed']}" if row["p"] else ""
+        parts = [measured(row), of if row["reference"] else "", asked, row["why"], row["entry"]]
         told += lines(row["verdict"], row["comparison"], parts)
     return "\n".join(told)
 

@@ -318,7 +318,7 @@ def test_a_row_has_what_was_measured(tmp_path):
     assert [name for name, row in by_name.items() if row["paper"]] == ["fact"]  # not what FAILS
     assert {name: by_name[name]["allowed"] for name in ALLOWED} == ALLOWED
     assert by_name["fact"]["bounds"] == "-0.6 <= difference <= -0.4 N"
-    measured = "rms 1.41, max 2 N (2.83 sigma); 3 points"
+    measured = "rms 1.41, max 2 N (rms 2.83 sigma); 3 points"
     assert verdict_table.measured(by_name["points"]) == measured
     changed = "p = 0.024; allowed is a known difference with 2 <= rms <= 3 N"
     said = verdict_table.problem(by_name["same"])

@@ -290,7 +290,7 @@ VERDICTS = [
     for (name, verdict, group), cells in CELLS.items()
 ]
 TOLD = """
-FAILS Far Maw 1976: rebound rms 0.02, max 0.03 μv2(0) (9 sigma); 4 points
+FAILS Far Maw 1976: rebound rms 0.02, max 0.03 μv2(0) (rms 9 sigma); 4 points
 F test, sigma as good as from 5 values: p = 0.6 max ≤ 1 N It is so.
 not compared points awaited Later Cross 2014: a max ≤ 1 N It is so.
 differs cause known Known Maw 1976: rebound rms 0.02, max 0.03 μv2(0); 4 points

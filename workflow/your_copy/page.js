@@ -10,6 +10,7 @@
 
   let state = null;
   const past = []; // states before, as text
+  let kept = {}; // the last states of other panels
   let mode = "marks"; // what a click does: marks, look or read
   let dark = null; // darkness of the picture, once a line is followed
   let imported = null; // columns of an export
@@ -44,6 +45,7 @@
   function change(action) {
     past.push(JSON.stringify(state));
     action();
+    get("saved").textContent = "";
     draw();
   }
 
@@ -237,8 +239,11 @@
   function press(event) {
     const writes = event.target.matches("input:not([type=checkbox], [type=radio], [type=range]), textarea");
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z" && !writes) undo();
-    else if (event.target !== sheet || !picture.naturalWidth) return;
-    else if (event.key in ARROWS) nudge(ARROWS[event.key].map((one) => one * (event.shiftKey ? 10 : 0.1)));
+    else if (!picture.naturalWidth || writes || event.target.matches("input, select")) return;
+    else if (event.key in ARROWS) {
+      const far = chosen_place() ? 1 : 10; // with Shift; without anything chosen the cursor goes
+      nudge(ARROWS[event.key].map((one) => one * (event.shiftKey ? far : 0.1)));
+    } else if (event.target !== sheet) return;
     else if (event.key === "Enter") put(state.cursor ?? [picture.naturalWidth / 2, picture.naturalHeight / 2]);
     else if (event.key === "Escape") change(() => { state.chosen = null; });
     else if (["Delete", "Backspace"].includes(event.key)) remove_chosen();
@@ -252,7 +257,7 @@
     if (state.clicks.length < 2) return refuse("Click the beginning and the end of the line first, and between where it bends.");
     dark ??= trace.darkness(picture);
     const { points, width, lost } = trace.follow(dark, state.clicks);
-    if (lost) return refuse(`The line is lost at pixel ${lost.map((one) => one.toFixed(0)).join(", ")}. Click more points along it.`);
+    if (lost) return refuse(`The line is lost at pixel ${lost.map((one) => one.toFixed(0)).join(", ")}. Set the clicks nearer to its middle, or more of them.`);
     refuse("");
     return take(points, width, "followed along the line");
   }
@@ -302,6 +307,7 @@
       // Marks and points are places in the picture before.
       state = { ...fresh(state.panel), series: state.series, off: state.off };
       past.length = 0;
+      kept = {};
       dark = null;
       refuse("");
       mode = "marks";
@@ -312,12 +318,14 @@
     reader.readAsDataURL(blob);
   }
 
-  // At the smallest size the whole picture is seen; what lies in the middle stays there.
+  // At the smallest size the whole picture is seen; what is chosen, or lies in the middle, stays there.
   function set_zoom() {
     if (!picture.naturalWidth) return;
     const { naturalWidth: width, naturalHeight: height } = picture;
-    const middle = [stage.scrollLeft + stage.clientWidth / 2, stage.scrollTop + stage.clientHeight / 2].map((one) => one / zoom());
-    stage.style.height = "";
+    const middle = chosen_place() ??
+      [stage.scrollLeft + stage.clientWidth / 2, stage.scrollTop + stage.clientHeight / 2].map((one) => one / zoom());
+    stage.style.height = sheet.style.height = ""; // and no bars to scroll with
+    sheet.style.width = "0";
     const scale = get("zoom").value * Math.min(stage.clientWidth / width, (stage.clientHeight - 4) / height);
     Object.assign(sheet.style, { width: `${scale * width}px`, height: `${scale * height}px` });
     stage.style.height = `${Math.min(stage.clientHeight, scale * height) + 2}px`;
@@ -330,6 +338,7 @@
     const found = sigmas();
     const problem = found.refused ?? readings.missing(said_of);
     refuse(problem);
+    get("saved").textContent = "";
     if (problem) return;
     const how = `planarimpact ${DATA.version}, your_copy.html; picture of ${picture.naturalWidth} x ` +
       `${picture.naturalHeight} px${state.by ? `; ${state.by}` : ""}`;
@@ -374,10 +383,11 @@
   function listen() {
     on("file", "change", ({ files: [file] }) => open_file(file));
     on("panel", "change", ({ value }) => {
-      change(() => { state = fresh(value); });
+      kept[state.panel] = state;
+      change(() => { state = kept[value] ?? fresh(value); });
+      mode = placed().length === state.marks.length ? "look" : "marks";
+      get("follow").checked = chosen_series()?.line ?? false;
       show_panel();
-      choose_series(state.series);
-      set_mode("marks");
     });
     on("series", "change", ({ value }) => { choose_series(value); set_mode("read"); });
     on("sheet", "click", (_, event) => { sheet.focus({ preventScroll: true }); put(place_of(event)); });
@@ -390,7 +400,10 @@
     for (const name of ["marks", "look", "read"]) on(`mode-${name}`, "change", () => set_mode(name));
     on("marks", "click", ({ className, dataset }) => {
       const i = Number(dataset.mark);
-      if (className === "mark-pick") change(() => { Object.assign(state, { next: i, chosen: { list: "marks", i } }); mode = "marks"; });
+      if (className === "mark-pick") {
+        change(() => { Object.assign(state, { next: i, chosen: { list: "marks", i } }); mode = "marks"; });
+        set_zoom();
+      }
       if (className === "mark-drop") change(() => { state.marks.splice(i, 1); Object.assign(state, { next: state.next - (i < state.next), chosen: null }); });
     });
     on("marks", "change", ({ className, value, dataset }) => {

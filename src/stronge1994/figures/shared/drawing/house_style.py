@@ -95,7 +95,7 @@ SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "line
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 # A series for which a drawing has no style of its own.
 POINT: Style = {"marker": "o", "markerfacecolor": "white", "markersize": 3.6}
-OF_PRINT = ("read from the printed curves", POINT | {"color": "0.3"})
+OF_PRINT = ("read from the printed curves", POINT | {"color": "0.3", "marker": "+"})
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
