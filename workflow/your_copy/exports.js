@@ -49,7 +49,8 @@ const exports_of_others = (() => {
     })).filter(({ values }) => values.some((value) => value !== null));
     if (columns.length < 2) return { refused: "There is one column of numbers; two are needed." };
     const commas = lines.some(({ line }) => cells_of(line, best.separator).some((cell) => WITH_COMMA.test(cell)));
-    const said = `${rows.length} rows, ${columns.length} columns${commas && best.separator.source !== "," ? "; decimal commas read as points" : ""}.`;
+    const read_as = commas && best.separator.source !== "," ? "; decimal commas read as points" : "";
+    const said = `${rows.length} rows, ${columns.length} columns${read_as}.`;
     return { columns, said };
   }
 

@@ -100,7 +100,9 @@ const maps = (() => {
 
   // The map, or why there is none: {refused}.
   function fit(marks) {
-    if (marks.length < 3) return { refused: `Set ${3 - marks.length} more of the marks: three are needed, six or more are better.` };
+    if (marks.length < 3) {
+      return { refused: `Set ${3 - marks.length} more of the marks: three are needed, six or more are better.` };
+    }
     const [values, pixels] = [spread(marks.map((m) => [m.x, m.y])), spread(marks.map((m) => [m.u, m.v]))];
     if (Math.min(values.width, pixels.width) < LEVEL) {
       return { refused: "The marks lie on one line. Set one that is away from it, on the other axis." };

@@ -31,6 +31,8 @@
     return `${value.toFixed(digits).replace("-", "\u2212")} ${readings.unit_of(column).replace(/\bmu\b/, "µ")}`.trim();
   }
 
+  const along = ({ x, y }) => `${said(x, 0)} along x, ${said(y, 1)} along y.`;
+
   const NOTHING_READ = { readings: [[], []], widths: [0, 0], clicks: [], second: false, chosen: null, by: "" };
 
   function fresh(name) {
@@ -84,7 +86,7 @@
     const found = sigmas();
     get("points").textContent =
       `First reading: ${state.readings[0].length} points. Second: ${state.readings[1].length}.`;
-    get("sigmas").textContent = found.refused ?? `Uncertainty (sigma): ${said(found.x, 0)} along x, ${said(found.y, 1)} along y.`;
+    get("sigmas").textContent = found.refused ?? `Uncertainty (sigma): ${along(found)}`;
     for (const id of ["trace", "save", "export-take"]) get(id).disabled = closed || map.refused || !state.series;
     get("second").disabled = !state.readings[0].length;
     get("second").textContent = state.second ? "Back to the first reading" : "Read a second time";
@@ -131,7 +133,7 @@
     get("fit").className = map.refused && placed().length > 2 ? "bad" : "";
     if (map.refused) return get("fit").replaceChildren(map.refused);
     const quality = map.of_freedom === null ? ". A further mark would show how good it is."
-      : `; residual ${map.residual.pixels.toFixed(2)} px: ${said(map.residual.x, 0)} along x, ${said(map.residual.y, 1)} along y.`;
+      : `; residual ${map.residual.pixels.toFixed(2)} px: ${along(map.residual)}`;
     return get("fit").replaceChildren(
       `${map.kind === "affine" ? "Affine" : "Perspective"} map from ${placed().length} marks${quality}`);
   }
@@ -144,8 +146,8 @@
       ${state.off.includes(i) ? "" : "checked"}> <svg viewBox="0 0 34 8" aria-hidden="true"><path
       class="${style_of(curve, i)}" d="M0,4H34"/></svg> ${curve.name}</label>`).join("");
     get("lines").innerHTML = map.refused ? "" : shown().map((curve) => {
-      const places = curve.x.map((x, k) => [x, curve.y[k]]).map(map.to_pixels);
-      return `<polyline class="${style_of(curve, curve.i)}" points="${places.map(([u, v]) => `${u.toFixed(2)},${v.toFixed(2)}`).join(" ")}"/>`;
+      const places = curve.x.map((x, k) => map.to_pixels([x, curve.y[k]]).map((one) => one.toFixed(2)).join(","));
+      return `<polyline class="${style_of(curve, curve.i)}" points="${places.join(" ")}"/>`;
     }).join("");
   }
 
@@ -186,7 +188,8 @@
     const least = all.reduce((best, one) => (one.near < best.near ? one : best), { near: Infinity });
     const beside = least.curve
       ? `; ${said(Math.abs(least.above), 1)} ${least.above < 0 ? "below" : "above"} “${least.curve.name}”` : "";
-    get("pointer").textContent = `${name_of(panel().x)} ${said(point[0], 0)}, ${name_of(panel().y)} ${said(point[1], 1)}${beside}`;
+    const [x, y] = [panel().x, panel().y].map((column, i) => `${name_of(column)} ${said(point[i], i)}`);
+    get("pointer").textContent = `${x}, ${y}${beside}`;
   }
 
   // --- actions on the picture ---
@@ -254,10 +257,15 @@
   // --- points ---
 
   function follow_line() {
-    if (state.clicks.length < 2) return refuse("Click the beginning and the end of the line first, and between where it bends.");
+    if (state.clicks.length < 2) {
+      return refuse("Click the beginning and the end of the line first, and between where it bends.");
+    }
     dark ??= trace.darkness(picture);
     const { points, width, lost } = trace.follow(dark, state.clicks);
-    if (lost) return refuse(`The line is lost at pixel ${lost.map((one) => one.toFixed(0)).join(", ")}. Set the clicks nearer to its middle, or more of them.`);
+    if (lost) {
+      const place = lost.map((one) => one.toFixed(0)).join(", ");
+      return refuse(`The line is lost at pixel ${place}. Set the clicks nearer to its middle, or more of them.`);
+    }
     refuse("");
     return take(points, width, "followed along the line");
   }
@@ -292,7 +300,7 @@
 
   async function open_file(file) {
     if (!file) return;
-    if (/\.pdf$/i.test(file.name)) refuse("This page cannot draw a PDF. Take a screenshot of the figure, and paste it here.");
+    if (/\.pdf$/i.test(file.name)) refuse("This page cannot draw a PDF. Paste a screenshot of the figure.");
     else if (file.type.startsWith("image/")) open_picture(file);
     else read_export(get("export").value = await file.text());
   }
@@ -313,7 +321,7 @@
       mode = "marks";
       set_zoom();
     };
-    picture.onerror = () => refuse("This file is no picture that the browser can show. Take a screenshot, and paste it here.");
+    picture.onerror = () => refuse("The browser cannot show this file. Paste a screenshot of the figure.");
     reader.onload = () => { picture.src = reader.result; };
     reader.readAsDataURL(blob);
   }
@@ -404,14 +412,22 @@
         change(() => { Object.assign(state, { next: i, chosen: { list: "marks", i } }); mode = "marks"; });
         set_zoom();
       }
-      if (className === "mark-drop") change(() => { state.marks.splice(i, 1); Object.assign(state, { next: state.next - (i < state.next), chosen: null }); });
+      if (className === "mark-drop") {
+        change(() => {
+          state.marks.splice(i, 1);
+          Object.assign(state, { next: state.next - (i < state.next), chosen: null });
+        });
+      }
     });
     on("marks", "change", ({ className, value, dataset }) => {
       const typed = value.trim() === "" ? NaN : Number(value.replace("\u2212", "-"));
       refuse(Number.isFinite(typed) ? "" : `“${value}” is no number such as -0.5.`);
       change(() => { state.marks[dataset.mark][className.at(-1)] = Number.isFinite(typed) ? typed : null; });
     });
-    on("mark-add", "click", () => change(() => { state.next = state.marks.push({ x: null, y: null, u: null, v: null }) - 1; mode = "marks"; }));
+    on("mark-add", "click", () => change(() => {
+      state.next = state.marks.push({ x: null, y: null, u: null, v: null }) - 1;
+      mode = "marks";
+    }));
     on("curves", "change", ({ checked, dataset }) => change(() => {
       const i = Number(dataset.curve);
       state.off = checked ? state.off.filter((one) => one !== i) : [...state.off, i];
@@ -420,18 +436,24 @@
     on("follow", "change", () => set_mode("read"));
     on("opacity", "input", ({ value }) => sheet.style.setProperty("--opacity", value));
     on("zoom", "input", set_zoom);
-    on("second", "click", () => { change(() => Object.assign(state, { second: !state.second, clicks: [], chosen: null })); set_mode("read"); });
+    on("second", "click", () => {
+      change(() => Object.assign(state, { second: !state.second, clicks: [], chosen: null }));
+      set_mode("read");
+    });
     on("trace", "click", follow_line);
     on("clear", "click", () => change(() => Object.assign(state, structuredClone(NOTHING_READ))));
     on("undo", "click", undo);
     for (const arrow of Object.keys(ARROWS)) on(arrow, "click", () => nudge(ARROWS[arrow].map((one) => 0.1 * one)));
     on("export", "input", ({ value }) => read_export(value));
-    on("exchange", "click", () => { [get("export-x").value, get("export-y").value] = [get("export-y").value, get("export-x").value]; });
+    on("exchange", "click", () => {
+      const [x, y] = ["export-x", "export-y"].map(get);
+      [x.value, y.value] = [y.value, x.value];
+    });
     on("export-take", "click", take_export);
     on("save", "click", save);
     on("picture", "click", save_picture);
-    for (const [event, alone] of Object.entries({ pointerdown: true, pointerup: false, pointerleave: false, blur: false })) {
-      on("hold", event, () => sheet.classList.toggle("print-only", alone));
+    for (const event of ["pointerdown", "pointerup", "pointerleave", "blur"]) {
+      on("hold", event, () => sheet.classList.toggle("print-only", event === "pointerdown"));
     }
     for (const event of ["keydown", "keyup"]) {
       document.addEventListener(event, ({ key, target }) => {

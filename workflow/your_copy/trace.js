@@ -69,7 +69,8 @@ const trace = (() => {
         gap = found ? 0 : gap + 1;
         if (gap > MOST_GAP) return { points, lost: here };
         const rest = [goal[0] - here[0], goal[1] - here[1]];
-        if (Math.hypot(...rest) < 1.5 * STEP || (Math.hypot(...rest) < 2 * reach && rest[0] * way[0] + rest[1] * way[1] < 0)) break;
+        const passed = rest[0] * way[0] + rest[1] * way[1] < 0;
+        if (Math.hypot(...rest) < 1.5 * STEP || (Math.hypot(...rest) < 2 * reach && passed)) break;
         here = [here[0] + STEP * way[0], here[1] + STEP * way[1]];
       }
       // Another line leads past the click.
