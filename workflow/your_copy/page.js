@@ -11,7 +11,6 @@
   let state = null;
   const past = []; // states before, as text
   let kept = {}; // the last states of other panels
-  let mode = "marks"; // what a click does: marks, look or read
   let dark = null; // darkness of the picture, once a line is followed
   let imported = null; // columns of an export
 
@@ -20,7 +19,7 @@
   const fitted = () => maps.fit(placed());
   const reading = () => state.readings[state.second ? 1 : 0];
   const size = () => Math.hypot(picture.naturalWidth, picture.naturalHeight);
-  const sigmas = () => readings.sigmas(fitted(), state.readings, state.widths, size());
+  const sigmas = () => readings.sigmas(fitted(), state.readings, state.widths, size(), chosen_series()?.line);
   const chosen_series = () => panel().series.find(({ id }) => id === state.series);
   const spans = ({ range }) => range.map(([low, high]) => high - low);
 
@@ -38,7 +37,7 @@
   function fresh(name) {
     const { marks, series } = DATA.panels[name];
     return {
-      panel: name, marks: marks.map(([x, y]) => ({ x, y, u: null, v: null })), next: 0, off: [], cursor: null,
+      panel: name, mode: "marks", marks: marks.map(([x, y]) => ({ x, y, u: null, v: null })), next: 0, off: [], cursor: null,
       series: series[0]?.id ?? "", ...structuredClone(NOTHING_READ),
     };
   }
@@ -53,12 +52,13 @@
 
   function undo() {
     if (past.length) state = JSON.parse(past.pop());
+    get("follow").checked = chosen_series()?.line ?? false;
     show_panel();
   }
 
   // Curves of the panel as they are drawn: forces of an unknown scale are multiplied.
   function shown() {
-    const factor = panel().scale ? Number(get("scale").value) || 1 : 1;
+    const factor = panel().scale ? typed(get("scale").value) || 1 : 1;
     return panel().curves.map((curve, i) => ({ ...curve, i, y: curve.y.map((y) => y * factor) }))
       .filter(({ i }) => !state.off.includes(i));
   }
@@ -94,19 +94,19 @@
     get("picture").disabled = closed;
     get("undo").disabled = !past.length;
     get("trace").hidden = !get("follow").checked;
-    get(`mode-${mode}`).checked = true;
+    get(`mode-${state.mode}`).checked = true;
     get("task").textContent = closed ? "" : task(map);
   }
 
   // What a click does now.
   function task(map) {
-    if (mode === "marks") {
+    if (state.mode === "marks") {
       const { x = null, y = null } = state.marks[state.next] ?? {};
       const where = x === null || y === null ? "a further mark" : `${name_of(panel().x)} ${x}, ${name_of(panel().y)} ${y}`;
       return `Click where ${where} stands.`;
     }
     if (map.refused) return map.refused;
-    if (mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
+    if (state.mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
     const how = get("follow").checked ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
     return `${state.second ? "Second" : "First"} reading of: ${chosen_series().name}. ${how}`;
   }
@@ -125,8 +125,10 @@
     state.marks.forEach((mark, i) => {
       const [, x, y, place, beside] = body.rows[i].cells;
       const off = map.off?.[placed().indexOf(mark)];
-      body.rows[i].className = i === state.next && mode === "marks" ? "next" : "";
-      [x.firstChild.value, y.firstChild.value] = [mark.x ?? "", mark.y ?? ""];
+      body.rows[i].className = i === state.next && state.mode === "marks" ? "next" : "";
+      for (const [cell, value] of [[x, mark.x], [y, mark.y]]) {
+        if (document.activeElement !== cell.firstChild) cell.firstChild.value = value ?? "";
+      }
       place.textContent = mark.u === null ? "not set" : `${mark.u.toFixed(1)}, ${mark.v.toFixed(1)}`;
       beside.textContent = off ? Math.hypot(off.u, off.v).toFixed(2) : "";
     });
@@ -142,9 +144,13 @@
 
   function draw_curves(map) {
     const { curves } = panel();
-    get("curves").innerHTML = curves.map((curve, i) => `<label><input type="checkbox" data-curve="${i}"
-      ${state.off.includes(i) ? "" : "checked"}> <svg viewBox="0 0 34 8" aria-hidden="true"><path
-      class="${style_of(curve, i)}" d="M0,4H34"/></svg> ${curve.name}</label>`).join("");
+    const list = get("curves");
+    if (list.dataset.panel !== state.panel) {
+      list.dataset.panel = state.panel;
+      list.innerHTML = curves.map((curve, i) => `<label><input type="checkbox" data-curve="${i}"> <svg viewBox="0 0 34 8"
+        aria-hidden="true"><path class="${style_of(curve, i)}" d="M0,4H34"/></svg> ${curve.name}</label>`).join("");
+    }
+    list.querySelectorAll("input").forEach((box, i) => { box.checked = !state.off.includes(i); });
     get("lines").innerHTML = map.refused ? "" : shown().map((curve) => {
       const places = curve.x.map((x, k) => map.to_pixels([x, curve.y[k]]).map((one) => one.toFixed(2)).join(","));
       return `<polyline class="${style_of(curve, curve.i)}" points="${places.join(" ")}"/>`;
@@ -199,21 +205,27 @@
     return [(clientX - left) / zoom(), (clientY - top) / zoom()];
   }
 
+  // The first mark that is not set, or a further one.
+  function next_mark() {
+    const unset = state.marks.findIndex((mark) => mark.u === null);
+    return unset < 0 ? state.marks.length : unset;
+  }
+
   function put([u, v]) {
-    state.cursor = null;
-    if (mode === "marks") {
+    if (state.mode === "marks") {
       change(() => {
         if (state.next >= state.marks.length) state.marks.push({ x: null, y: null });
         Object.assign(state.marks[state.next], { u, v });
         state.chosen = { list: "marks", i: state.next };
-        const unset = state.marks.findIndex((mark) => mark.u === null);
-        state.next = unset < 0 ? state.marks.length : unset;
-        if (unset < 0) mode = "look";
+        state.next = next_mark();
+        if (state.next === state.marks.length) state.mode = "look";
       });
-    } else if (mode === "read" && state.series && !fitted().refused) {
+    } else if (state.mode === "read" && state.series && !fitted().refused) {
       change(() => {
         if (get("follow").checked) return void state.clicks.push([u, v]);
-        state.chosen = { list: "points", i: reading().push([u, v]) - 1 };
+        // A click on a point that was read chooses it.
+        const there = reading().findIndex(([a, b]) => Math.hypot(a - u, b - v) < 6 / zoom());
+        state.chosen = { list: "points", i: there < 0 ? reading().push([u, v]) - 1 : there };
       });
     }
     tell([u, v]);
@@ -235,19 +247,21 @@
     change(() => {
       if (state.chosen?.list === "points") reading().splice(state.chosen.i, 1);
       if (state.chosen?.list === "marks") Object.assign(state.marks[state.chosen.i], { u: null, v: null });
-      state.chosen = null;
+      Object.assign(state, { chosen: null, next: next_mark() });
     });
   }
 
+  const writes = (target) => target.matches("input:not([type=checkbox], [type=radio], [type=range], [type=file]), textarea");
+  const typed = (text) => (text.trim() === "" ? NaN : Number(text.replace(/[\u2212\u2013]/, "-").replace(",", ".")));
+
   function press(event) {
-    const writes = event.target.matches("input:not([type=checkbox], [type=radio], [type=range]), textarea");
-    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z" && !writes) undo();
-    else if (!picture.naturalWidth || writes || event.target.matches("input, select")) return;
+    if ((event.ctrlKey || event.metaKey) && event.key === "z" && !writes(event.target)) undo();
+    else if (!picture.naturalWidth || event.target.matches("input, select, textarea")) return;
     else if (event.key in ARROWS) {
       const far = chosen_place() ? 1 : 10; // with Shift; without anything chosen the cursor goes
       nudge(ARROWS[event.key].map((one) => one * (event.shiftKey ? far : 0.1)));
     } else if (event.target !== sheet) return;
-    else if (event.key === "Enter") put(state.cursor ?? [picture.naturalWidth / 2, picture.naturalHeight / 2]);
+    else if (event.key === "Enter") put(state.cursor ??= [picture.naturalWidth / 2, picture.naturalHeight / 2]);
     else if (event.key === "Escape") change(() => { state.chosen = null; });
     else if (["Delete", "Backspace"].includes(event.key)) remove_chosen();
     else return;
@@ -306,7 +320,8 @@
   }
 
   function open_picture(blob) {
-    const reader = new FileReader();
+    const [reader, trial] = [new FileReader(), new Image()]; // else what cannot be shown would replace the picture
+    trial.onload = () => { picture.src = trial.src; };
     picture.onload = () => {
       const { naturalWidth: width, naturalHeight: height, src: href } = picture;
       sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -318,11 +333,10 @@
       kept = {};
       dark = null;
       refuse("");
-      mode = "marks";
       set_zoom();
     };
-    picture.onerror = () => refuse("The browser cannot show this file. Paste a screenshot of the figure.");
-    reader.onload = () => { picture.src = reader.result; };
+    trial.onerror = () => refuse("The browser cannot show this file. Paste a screenshot of the figure.");
+    reader.onload = () => { trial.src = reader.result; };
     reader.readAsDataURL(blob);
   }
 
@@ -344,7 +358,7 @@
   function save() {
     const said_of = { series: chosen_series(), ...Object.fromEntries(FIELDS.map((id) => [id, get(id).value])) };
     const found = sigmas();
-    const problem = found.refused ?? readings.missing(said_of);
+    const problem = found.refused ?? (readings.missing(said_of) || readings.unfit(said_of.series, fitted(), found, state.readings[0]));
     refuse(problem);
     get("saved").textContent = "";
     if (problem) return;
@@ -366,8 +380,11 @@
 
   // --- controls ---
 
-  function set_mode(wanted) {
-    mode = wanted;
+  // What a click does: it sets marks, only looks, or reads points.
+  function set_mode(mode) {
+    const other = { marks: "points", read: "marks" }[mode];
+    if (state.chosen?.list === other) state.chosen = null;
+    Object.assign(state, { mode, next: next_mark() });
     draw();
   }
 
@@ -393,12 +410,11 @@
     on("panel", "change", ({ value }) => {
       kept[state.panel] = state;
       change(() => { state = kept[value] ?? fresh(value); });
-      mode = placed().length === state.marks.length ? "look" : "marks";
       get("follow").checked = chosen_series()?.line ?? false;
       show_panel();
     });
     on("series", "change", ({ value }) => { choose_series(value); set_mode("read"); });
-    on("sheet", "click", (_, event) => { sheet.focus({ preventScroll: true }); put(place_of(event)); });
+    on("sheet", "click", (_, event) => { sheet.focus({ preventScroll: true }); state.cursor = null; put(place_of(event)); });
     on("sheet", "pointermove", (_, event) => {
       if (event.pointerType !== "mouse") return;
       tell(place_of(event));
@@ -409,24 +425,26 @@
     on("marks", "click", ({ className, dataset }) => {
       const i = Number(dataset.mark);
       if (className === "mark-pick") {
-        change(() => { Object.assign(state, { next: i, chosen: { list: "marks", i } }); mode = "marks"; });
+        change(() => { Object.assign(state, { next: i, mode: "marks", chosen: { list: "marks", i } }); });
         set_zoom();
       }
       if (className === "mark-drop") {
         change(() => {
           state.marks.splice(i, 1);
-          Object.assign(state, { next: state.next - (i < state.next), chosen: null });
+          Object.assign(state, { next: next_mark(), chosen: null });
         });
+        get("mark-add").focus();
       }
     });
     on("marks", "change", ({ className, value, dataset }) => {
-      const typed = value.trim() === "" ? NaN : Number(value.replace("\u2212", "-"));
-      refuse(Number.isFinite(typed) ? "" : `“${value}” is no number such as -0.5.`);
-      change(() => { state.marks[dataset.mark][className.at(-1)] = Number.isFinite(typed) ? typed : null; });
+      const number = typed(value);
+      refuse(Number.isFinite(number) ? "" : `“${value}” is no number such as -0.5: the old one is kept.`);
+      if (Number.isFinite(number)) change(() => { state.marks[dataset.mark][className.at(-1)] = number; });
+      draw();
     });
     on("mark-add", "click", () => change(() => {
       state.next = state.marks.push({ x: null, y: null, u: null, v: null }) - 1;
-      mode = "marks";
+      state.mode = "marks";
     }));
     on("curves", "change", ({ checked, dataset }) => change(() => {
       const i = Number(dataset.curve);
@@ -441,7 +459,10 @@
       set_mode("read");
     });
     on("trace", "click", follow_line);
-    on("clear", "click", () => change(() => Object.assign(state, structuredClone(NOTHING_READ))));
+    on("clear", "click", () => change(() => {
+      const { second, readings: [first], widths: [width] } = state;
+      Object.assign(state, structuredClone(NOTHING_READ), second ? { second, readings: [first, []], widths: [width, 0] } : {});
+    }));
     on("undo", "click", undo);
     for (const arrow of Object.keys(ARROWS)) on(arrow, "click", () => nudge(ARROWS[arrow].map((one) => 0.1 * one)));
     on("export", "input", ({ value }) => read_export(value));
@@ -458,16 +479,18 @@
     for (const event of ["keydown", "keyup"]) {
       document.addEventListener(event, ({ key, target }) => {
         const held = key.toLowerCase() === "h" || (target.id === "hold" && [" ", "Enter"].includes(key));
-        if (held && !target.matches("input, textarea, select")) sheet.classList.toggle("print-only", event === "keydown");
+        if (held && !writes(target)) sheet.classList.toggle("print-only", event === "keydown");
       });
     }
+    window.addEventListener("blur", () => sheet.classList.remove("print-only"));
     document.addEventListener("keydown", press);
     document.addEventListener("dragover", (event) => event.preventDefault());
     document.addEventListener("drop", (event) => { event.preventDefault(); open_file(event.dataTransfer.files[0]); });
     document.addEventListener("paste", ({ clipboardData, target }) => {
+      if (writes(target)) return;
       const image = [...clipboardData.items].find(({ type }) => type.startsWith("image/"));
       if (image) open_picture(image.getAsFile());
-      else if (!target.matches("input, textarea")) read_export(get("export").value = clipboardData.getData("text"));
+      else read_export(get("export").value = clipboardData.getData("text"));
     });
     window.addEventListener("resize", set_zoom);
   }

@@ -3,7 +3,9 @@
 // Two readings of the same points: how uncertain they are, and the file for the run. Places are in pixels.
 const readings = (() => {
   const SAME_POINT = 0.03; // share of the picture in which two readings of one point lie
-  const PLACEHOLDER = /^(your name|name|who|me|test|todo|xxx+|[.?\s-]*|<.*>)$/i;
+  // What the run refuses, too: see reference_data/reading.py.
+  const PLACEHOLDER = /^(<.*>|\W*|x+|(your|todo|tbd)\b.*|(the )?name|who|when|from|how|none|n\/a|unknown)$/i;
+  const [LARGEST_SIGMA, OUTSIDE] = [0.01, 3]; // share of the range of an axis; sigmas
   const round = (value, digits) => Number(value.toPrecision(digits));
   const unit_of = (column) => column.match(/\[(.*)\]/)[1].replace(/^1$/, "");
 
@@ -19,37 +21,59 @@ const readings = (() => {
   }
 
   // Both sigmas in units of the axes, by two readings, the marks, and for a line half its width; or {refused}.
-  function sigmas(map, [first, second], widths, size) {
+  function sigmas(map, [first, second], widths, size, is_line) {
     if (map.refused) return map;
     if (!first.length || !second.length) {
       return { refused: "The uncertainty is known once you have read the points twice." };
     }
     const half = Math.max(...widths) / 2;
-    const pairs = half ? [] : paired(first, second, size);
-    if (!half && (pairs.length !== first.length || first.length !== second.length)) {
+    const line = half > 0 || is_line;
+    if (line && Math.min(first.length, second.length) < 2) {
+      return { refused: "A line needs two points in each reading, or more." };
+    }
+    const pairs = line ? [] : paired(first, second, size);
+    if (!line && (pairs.length !== first.length || first.length !== second.length)) {
       const counts = `${first.length} and ${second.length} points, of which ${pairs.length} are the same`;
       return { refused: `The readings have ${counts}. Remove, or read, those that one of them lacks.` };
     }
     const scales = first.map(map.scale);
     const beside = maps.rms(second.map((place) => trace.beside(place, first)));
+    if (`${first}` === `${second}`) return { refused: "Both readings are the same. Read the points again, on their own." };
     const [x, y] = [0, 1].map((i) => {
       const pixel = maps.rms(scales.map((scale) => scale[i]));
-      const twice = half ? pixel * beside : maps.rms(pairs.map(([a, b]) => map.to_axes(a)[i] - map.to_axes(b)[i]));
+      const twice = line ? pixel * beside : maps.rms(pairs.map(([a, b]) => map.to_axes(a)[i] - map.to_axes(b)[i]));
       return Math.hypot(twice / Math.SQRT2, pixel * map.sigma, pixel * half);
     });
     const origin = "two readings, root mean square of their difference over the square root of 2" +
-      `${half ? "; half the width of the line" : ""}; residual of the marks`;
-    return { x, y, origin, ...(half ? {} : { values: pairs.length }) };
+      `${half ? "; half the width of the line" : ""}${map.sigma ? "; residual of the marks" : ""}`;
+    return { x, y, origin, ...(line ? {} : { values: pairs.length }) };
   }
 
   // Why a file would be refused; empty if it would not be.
   function missing({ who, when, from, incidence, series }) {
     const empty = (text) => text.trim().length < 3 || PLACEHOLDER.test(text.trim());
     if (empty(who)) return "Who read the points? Give a name.";
-    if (!/^\d{4}-\d\d-\d\d$/.test(when)) return "When were they read? Give the date.";
+    if (!/^\d{4}-\d\d-\d\d$/.test(when) || new Date(when) > Date.now() + 864e5) return "When were they read? Give the day, not a later one than today.";
     if (empty(from)) return "From what were they read? Say which figure, page and copy.";
-    if (series.open.includes("incidence") && !(Number(incidence) > 0)) {
+    if (series.open.includes("incidence") && !/^\d*\.?\d+$/.test(incidence.trim())) {
       return "The paper does not state the incidence. Give that of the print: its velocity at time 0.";
+    }
+    return "";
+  }
+
+  // Why the run would refuse the points; empty if it would not.
+  function unfit({ ranges, columns }, map, found, places) {
+    for (const [i, axis] of ["x", "y"].entries()) {
+      const [low, high] = ranges[i];
+      const most = LARGEST_SIGMA * (high - low);
+      if (found[axis] > most) {
+        return `Sigma along ${axis} is ${round(found[axis], 2)}; the run allows up to ${round(most, 2)}. Read at a larger size.`;
+      }
+      const out = places.map((place) => map.to_axes(place)[i])
+        .find((value) => Math.max(low - value, value - high) > OUTSIDE * found[axis]);
+      if (out !== undefined) {
+        return `${columns[i]} = ${round(out, 3)} is outside ${low} to ${high}. Are marks or columns exchanged, or a sign turned?`;
+      }
     }
     return "";
   }
@@ -71,5 +95,5 @@ const readings = (() => {
     return [...notes, ...[series.columns, ...rows].map((row) => row.join(","))].join("\n") + "\n";
   }
 
-  return { sigmas, missing, csv, unit_of };
+  return { sigmas, missing, unfit, csv, unit_of };
 })();

@@ -59,6 +59,7 @@ def _readable(full: str, entry: Mapping[str, Any], line: bool) -> dict[str, Any]
         "name": name,
         "line": line,
         "columns": columns,
+        "ranges": [list(own.x.range), list(own.ordinates[0].range)],
         "open": list(entry.get("open", [])),
     }
 
