@@ -1,7 +1,8 @@
 """The table for a reader: of each figure of the paper what agrees with what, and what does not.
 
-It has what the paper states, and what others measured or computed, of these only beside the paper's
-model. The checks of our solver, and the figures beyond the paper, have a line each.
+It has the printed curves, what the paper states, and what others measured or computed, of these
+only beside the paper's model. The checks of our solver, and the figures beyond the paper, have a
+line each.
 """
 
 import textwrap
@@ -14,12 +15,12 @@ import pandas as pd
 from stronge1994 import verdict_table, words
 from stronge1994.names import is_of_paper
 from stronge1994.tables import Row, Table, with_unit
-from stronge1994.verdict_table import COLUMNS, Group, Verdict
+from stronge1994.verdict_table import COLUMNS, Group, Verdict, Why
 
 # The paper's model, in curves that are selected by their model.
 MODELS_OF_PAPER = ("", "lumped", "lumped.hysteretic")
 NUMBERS = ("points", "rms", "max")
-PRINTED = "printed curve"  # which no run has compared
+PRINTED = "printed curve"
 
 
 class Item(NamedTuple):
@@ -50,10 +51,15 @@ class Item(NamedTuple):
 
 
 class FigureRow(NamedTuple):
-    """What a figure shows, and all that it is compared with but our own checks."""
+    """What a figure shows, and all that it is compared with but our own checks.
+
+    Of its printed curves so many are `awaited`; `printed` has all others.
+    """
 
     figure: str
     shows: str
+    awaited: int
+    printed: list[Item]
     paper: list[Item]
     others: list[Item]
 
@@ -72,7 +78,21 @@ def of_run(rows: Sequence[Row], shows: Mapping[str, str]) -> list[FigureRow]:
 def _figure_row(name: str, shows: str, rows: Table) -> FigureRow:
     paper, others = (rows[rows["group"] == group] for group in (Group.PAPER, Group.OTHERS))
     shown = others["model"].isin(MODELS_OF_PAPER) | (others["verdict"] == Verdict.FAILS)
-    return FigureRow(name, shows, list(_items(paper)), list(_items(others[shown])))
+    printed = rows[rows["group"] == Group.PRINTED]
+    awaited = int((printed["why"] == Why.AWAITED).sum())
+    items = _items(paper), _items(others[shown])
+    return FigureRow(name, shows, awaited, list(_printed(printed)), *map(list, items))
+
+
+def _printed(rows: Table) -> Iterator[Item]:
+    """Printed curves that somebody has read, those of one verdict together, the worst first."""
+    read = rows[rows["why"] != Why.AWAITED]
+    for (_, says, unit), own in read.groupby(["severity", "says", "unit"]):
+        verdict, why, entry = own.iloc[0][["verdict", "why", "entry"]]
+        rms = f"rms {_rms(own, unit)}" if unit else ""
+        follows = f"{says}, {rms} from the model" if says else rms
+        size = ", ".join(filter(None, [f"{len(own)} of {len(rows)}", follows]))
+        yield Item(own["comparison"].tolist(), verdict, why, entry, "", "", "", size)
 
 
 def _items(rows: Table) -> Iterator[Item]:
@@ -110,11 +130,16 @@ def _against_points(rows: Table, first: Row, name: str) -> str:
         return with_unit(float(f"{compared['max'].max():.2g}"), first["unit"])
     series = [own for _, own in compared.groupby("reference", sort=False)]
     own, alike = series[0], [(one["verdict"] == first["verdict"]).any() for one in series]
-    rms = np.sqrt(np.average(own["rms"] ** 2, weights=own["points"]))
-    size = with_unit(float(f"{rms:.2g}"), own["unit"].iloc[0])
+    size = _rms(own, own["unit"].iloc[0])
     what = words.of_identifier(own["reference"].iloc[0].split("/")[1])
     of = f"in {sum(alike)} of {len(series)} series: " if len(series) > 1 else ""
     return f"{of}{what}, {own['points'].sum():.0f} points, rms {size}"
+
+
+def _rms(rows: Table, unit: str) -> str:
+    """Root mean square distance of the points of some rows."""
+    rms = np.sqrt(np.average(rows["rms"] ** 2, weights=rows["points"]))
+    return with_unit(float(f"{rms:.2g}"), unit)
 
 
 def text(table: Sequence[FigureRow]) -> str:
@@ -123,9 +148,12 @@ def text(table: Sequence[FigureRow]) -> str:
     for row in table:
         items = [*row.paper, *row.others]
         later = [f"points of {i.name}" for i in items if i.verdict == Verdict.NOT_COMPARED]
-        missing = ", ".join(dict.fromkeys([PRINTED, *later]))
-        head = f"{words.figure(row.figure)}  {row.shows}; not compared: {missing}"
+        missing = ", ".join(dict.fromkeys([*([] if row.printed else [PRINTED]), *later]))
+        head = f"{words.figure(row.figure)}  {row.shows}"
+        head += f"; not compared: {missing}" if missing else ""
         lines += textwrap.wrap(head, verdict_table.WIDTH)
+        for item in row.printed:
+            lines += verdict_table.lines(item.verdict, PRINTED, (item.text, item.reason))
         for item in items:
             if item.verdict != Verdict.NOT_COMPARED:
                 parts = item.text, item.reason
@@ -137,6 +165,17 @@ def of_solver(rows: Iterable[Row]) -> str:
     """How the checks of our solver went, in one line."""
     told = counted(rows, solver=True)
     return f"Solver checked by our codes and laws: {told}" if told else ""
+
+
+def of_printed(rows: Iterable[Row]) -> str:
+    """How many printed curves were compared, of how many; empty if none was.
+
+    >>> of_printed([{"group": "printed figure", "verdict": "agrees"}])
+    '1 of 1 compared'
+    """
+    verdicts = [row["verdict"] for row in rows if row["group"] == Group.PRINTED]
+    done = len(verdicts) - verdicts.count(Verdict.NOT_COMPARED)
+    return f"{done} of {len(verdicts)} compared" if done else ""
 
 
 def beyond(rows: Iterable[Row]) -> str:

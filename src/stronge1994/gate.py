@@ -8,12 +8,13 @@ from collections.abc import Collection, Mapping, Sequence
 from stronge1994 import figure_table, tables, verdict_table
 from stronge1994.ledger import outcome
 from stronge1994.tables import Row
-from stronge1994.verdict_table import Verdict, Why
+from stronge1994.verdict_table import Group, Verdict, Why
 
 LEDGER = "results/ledger.csv"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 PASSED = """\
-PASSED: nothing has changed, {checks} checks hold. Printed curves: not compared.
+PASSED: nothing has changed, {checks} checks hold.
+Printed curves: {printed}.
 This does not mean that the paper is right. "wrong" says: not by its own model.
 A run FAILS if a curve of ours leaves the tolerance of its reference in data/,
 if one of {known} known differences leaves its bounds, or if one of {entries}
@@ -23,6 +24,7 @@ Play:    figures/explorer.html
 Tables:  results/verdicts.csv, results/ledger.csv
 Change:  workflow/config.yaml, and run again. References for the old value are
          not compared. To draw without judging: snakemake --cores 2 figures"""
+NO_PRINT = "not compared (with your copy: figures/your_copy.html)"
 UNMADE = (
     "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "
     "({}); to draw without judging: {}"
@@ -61,8 +63,12 @@ def faults(
 
 
 def unmade(verdicts: Sequence[Row]) -> list[Row]:
-    """Comparisons that cannot be made with the settings of the run."""
-    return [row for row in verdicts if row["why"] == Why.SETTINGS]
+    """Comparisons that cannot be made with the settings of the run, and are with ours.
+
+    A printed curve may be of an incidence that the paper does not state.
+    """
+    others = [row for row in verdicts if row["why"] == Why.SETTINGS]
+    return [row for row in others if row["group"] != Group.PRINTED]
 
 
 def summary(
@@ -112,8 +118,10 @@ def summary(
     elif "all" in passed:
         found = Counter(row["verdict"] for row in rows)
         checks = len(rows) - found[Verdict.NOT_COMPARED] + len(ledger)
-        known = found[Verdict.DIFFERS]
-        parts += [PASSED.format(checks=checks, known=known, entries=len(ledger))]
+        printed = figure_table.of_printed(rows) or NO_PRINT
+        known = len(verdict_table.known(rows))
+        told = {"checks": checks, "printed": printed, "known": known, "entries": len(ledger)}
+        parts += [PASSED.format(**told)]
     elif passed:
         parts += ["No comparison fails." if rows else "There is nothing to compare."]
         parts += ["The verdict of all: snakemake --cores 2"]

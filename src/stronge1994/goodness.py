@@ -1,4 +1,4 @@
-"""Goodness of fit: chi-squared of points beside a curve to which nothing was fitted."""
+"""Goodness of fit: chi-squared of points beside a curve."""
 
 from typing import NamedTuple
 
@@ -8,22 +8,23 @@ from planarimpact.common.arrays import ArrayLike
 
 
 class ChiSquared(NamedTuple):
-    """How well points fit a curve to which nothing was fitted.
+    """How well points fit a curve.
 
     `value` is the sum of squares of the distances in sigmas, with their correlations; `degrees` is
-    the number of points. `of_sigma` is the number of independent values from which the sigmas were
+    the number of points less that of fitted parameters, which need not be whole: several curves may
+    share one. `of_sigma` is the number of independent values from which the sigmas were
     estimated, None if they are known. `p` is the probability that chance alone gives a value as
     large. It follows the distribution of chi-squared, or that of F if the sigmas were estimated.
     """
 
     value: float
-    degrees: int
+    degrees: float
     of_sigma: int | None
     p: float
 
 
 def chi_squared(
-    sigmas: ArrayLike, shifts: ArrayLike = (), of_sigma: int | None = None
+    sigmas: ArrayLike, shifts: ArrayLike = (), of_sigma: int | None = None, fitted: float = 0
 ) -> ChiSquared:
     """Chi-squared of distances, with the uncertainty of the curve's own parameters.
 
@@ -31,7 +32,8 @@ def chi_squared(
     covariance 1 + sum of J J^T, with one J for each independent parameter: a row of `shifts`, which
     says how much each distance changes with one sigma of the parameter. A fit of the parameters
     gives the same chi-squared, if it holds them to their stated values with their stated sigmas.
-    `of_sigma` is as in `ChiSquared`.
+    `of_sigma` is as in `ChiSquared`; `fitted` is the number of parameters fitted to the points. As
+    many parameters as points explain everything: p is 1.
 
     >>> fit = chi_squared([1.0, 2.0])
     >>> fit.value, fit.degrees, round(fit.p, 3)
@@ -49,7 +51,9 @@ def chi_squared(
     moved = np.asarray(shifts, float).reshape(-1, len(distance))
     covariance = np.eye(len(distance)) + moved.T @ moved
     value = float(distance @ np.linalg.solve(covariance, distance))
-    degrees = len(distance)
+    degrees = len(distance) - fitted
+    if degrees <= 0:
+        return ChiSquared(value, degrees, of_sigma, 1.0)
     if of_sigma is None:
         return ChiSquared(value, degrees, None, float(chdtrc(degrees, value)))
     return ChiSquared(value, degrees, of_sigma, float(fdtrc(degrees, of_sigma, value / degrees)))

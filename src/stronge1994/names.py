@@ -7,6 +7,7 @@ CONTINUA = ("continuum.viscous", "continuum.plastic")
 # All models that are compared with measurements below e = 1, that of the paper first.
 PAPER = "lumped.hysteretic"
 MODELS = (PAPER, "lumped.unloading-stiffness", "lumped.viscous", *CONTINUA[::-1])
+STRONGE = "stronge1994"  # the source of what the paper states and prints
 # Models without loss, and for comparison alone, see `planarimpact.continuum.rebound`.
 ELASTIC, ELASTIC_IN_SHEAR = "continuum", "continuum.plastic-elastic-shear"
 # The printed equations, as far as they differ from the lumped model; and the variant that has the

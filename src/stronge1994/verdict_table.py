@@ -45,9 +45,13 @@ class Why(StrEnum):
 
 
 class Group(StrEnum):
-    """With what a curve is compared: statements of the paper, others, or our own second codes."""
+    """With what a curve is compared.
+
+    These are statements of the paper, its printed curves, others, or our own second codes.
+    """
 
     PAPER = "paper"
+    PRINTED = "printed figure"
     OTHERS = "others"
     SOLVER = "solver checked"
 
@@ -55,6 +59,12 @@ class Group(StrEnum):
 def gather(paths: Iterable[str]) -> list[Row]:
     """Rows of several tables."""
     return [row for path in paths for row in tables.read_rows(path, COLUMNS)]
+
+
+def known(rows: Iterable[Row]) -> list[Row]:
+    """Known differences, which have bounds; a printed curve that follows a misprint has none."""
+    differ = (row for row in rows if row["verdict"] == Verdict.DIFFERS)
+    return [row for row in differ if row["group"] != Group.PRINTED]
 
 
 def outcome(row: Row) -> str:
@@ -73,7 +83,7 @@ def measured(row: Row) -> str:
     if not row["points"]:
         return ""
     size = f"rms {row['rms']}, max {with_unit(float(row['max']), row['unit'])}"
-    sigmas = f" ({row['rms [sigma]']} sigma)" if row["p"] else ""
+    sigmas = f" (rms {row['rms [sigma]']} sigma)" if row["p"] else ""
     count = f"{row['points']} point" + ("" if row["points"] == "1" else "s")
     return f"{size}{sigmas}; {count}"
 
@@ -83,14 +93,16 @@ def chance(row: Row) -> str:
 
     >>> row = {"chi^2": "242", "degrees of freedom": "5", "degrees of sigma": "4", "p": "0.0011"}
     >>> chance(row)
-    'F test, as sigma is estimated from 4 values: p = 0.0011'
+    'F test, sigma as good as from 4 values: p = 0.0011'
     """
     if not row["p"]:
         return ""
     if row["degrees of sigma"]:
         values = f"{row['degrees of sigma']} values"
-        return f"F test, as sigma is estimated from {values}: p = {row['p']}"
-    return f"chi^2 {row['chi^2']} of {row['degrees of freedom']} points: p = {row['p']}"
+        return f"F test, sigma as good as from {values}: p = {row['p']}"
+    degrees, points = row["degrees of freedom"], row["points"]
+    of = f"{degrees} points" if degrees == points else f"{degrees} degrees of freedom"
+    return f"chi^2 {row['chi^2']} of {of}: p = {row['p']}"
 
 
 def problem(row: Row) -> str:
@@ -105,7 +117,11 @@ def text(rows: Sequence[Row]) -> str:
     """The rows of one figure for a terminal."""
     told = []
     for row in rows:
-        parts = [measured(row), row["reference"], row["why"], row["entry"]]
+        of = (
+            f"{row['reference']} and the curve {row['curve']}" if row["curve"] else row["reference"]
+        )
+        asked = f"to agree: {row['allowed']}" if row["p"] else ""
+        parts = [measured(row), of if row["reference"] else "", asked, row["why"], row["entry"]]
         told += lines(row["verdict"], row["comparison"], parts)
     return "\n".join(told)
 

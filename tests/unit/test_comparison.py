@@ -6,7 +6,10 @@ import pytest
 from scipy import stats
 from scipy.optimize import minimize
 
-from stronge1994 import tables, verdict_table
+from stronge1994 import reference_data, tables, verdict_table
+from stronge1994.figures.fig6 import curves as fig6
+from stronge1994.figures.fig7 import curves as fig7
+from stronge1994.figures.fig9 import curves as fig9
 from stronge1994.goodness import chi_squared
 from stronge1994.judging import compare, landmarks, write
 from stronge1994.judging.comparisons import Comparison
@@ -18,7 +21,8 @@ from stronge1994.judging.distances import (
 from stronge1994.judging.metrics import Measured, measure
 from stronge1994.judging.verdicts import judge
 from stronge1994.reference_data import Fact, Series
-from stronge1994.verdict_table import COLUMNS, Verdict, Why
+from stronge1994.settings import figures
+from stronge1994.verdict_table import COLUMNS, Group, Verdict, Why
 
 AXIS = {"column": "x", "unit": "s", "sigma": 1.0, "range": [0.0, 1.0]}
 LINE = (np.linspace(0, 2, 21), np.abs(np.linspace(0, 2, 21) - 1.0))
@@ -238,8 +242,8 @@ pair,FAILS,,3,1.5,1.5,N,,,,,1.5e+12,1.5e+12,,
 span,passed,,3,0.5,0.5,N,,,,,0.5,0.5,0.5 to 0.5,
 fact,differs,cause known,1,0.5,0.5,N,,,,,2,2,0.5,1 N
 sign,FAILS,,1,0.5,0.5,N,,,,,inf,inf,0.5,< 0
-points,cannot tell,,3,1.41,2,N,10.8,3,4,0.12,2.83,4,,
-same,FAILS,,3,1.41,2,N,10.8,3,4,0.12,2.83,4,,
+points,cannot tell,,3,1.41,2,N,10.8,3,31,0.024,2.83,4,,
+same,FAILS,,3,1.41,2,N,10.8,3,31,0.024,2.83,4,,
 later,not compared,points awaited,,,,,,,,,,,,
 both,FAILS,,4,1.41,2,N,,,,,3.16,4,,
 other,not compared,other settings,,,,,,,,,,,,
@@ -314,9 +318,9 @@ def test_a_row_has_what_was_measured(tmp_path):
     assert [name for name, row in by_name.items() if row["paper"]] == ["fact"]  # not what FAILS
     assert {name: by_name[name]["allowed"] for name in ALLOWED} == ALLOWED
     assert by_name["fact"]["bounds"] == "-0.6 <= difference <= -0.4 N"
-    measured = "rms 1.41, max 2 N (2.83 sigma); 3 points"
+    measured = "rms 1.41, max 2 N (rms 2.83 sigma); 3 points"
     assert verdict_table.measured(by_name["points"]) == measured
-    changed = "p = 0.12; allowed is a known difference with 2 <= rms <= 3 N"
+    changed = "p = 0.024; allowed is a known difference with 2 <= rms <= 3 N"
     said = verdict_table.problem(by_name["same"])
     assert said.startswith(f"{NOTES['same']}: {measured}; F test") and said.endswith(changed)
     write(rows, tmp_path / "verdicts.csv", tmp_path / "residuals.csv")
@@ -328,3 +332,55 @@ def test_a_row_has_what_was_measured(tmp_path):
         table.astype(object).replace({"y [N]": {0.5: wrong}}).to_csv(path, index=False)
         with pytest.raises(ValueError, match="allowed are finite numbers"):
             compare("fig0", path, entries, references, 0.01, settings)
+
+
+# Prints that may follow printed equations, their settings, and how much larger a print would FAIL.
+PRINTS = {
+    "fig6-printed-curve-e-0.5": (fig6, 1.05, {"incidence": (0, 8), "restitution": [0.5]}),
+    "fig7-printed-curve-mu-0.2": (fig7, 1.1, {"angle": (0, 90), "friction": [0.2]}),
+    "fig9-printed-curve-mu-0.5-e-0.5": (
+        fig9,
+        1.05,
+        {"angle": (0, 90), "friction": [0.5], "restitution": [0.5]},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", PRINTS)
+def test_a_print_follows_the_model_or_the_printed_equations(name, tmp_path):
+    """Points lie inside the stretch where the two differ, and beyond it."""
+    (module, larger, settings), path = PRINTS[name], str(tmp_path / "curves.csv")
+    table = module.curves(3.5, 1.21, **settings, samples=181, as_printed=True)
+    tables.write(path, table)
+    entry = figures.comparisons()[name]
+    other = entry["or_printed"]
+    model, printed = (tables.select(table, **own["curve"]) for own in (entry, other))
+    source = reference_data.load_yaml("data/stronge1994/source.yaml")["series"]
+    series = source[entry["reference"].split("/")[1]]
+    series |= {"kind": "digitised", "path": str(tmp_path / "points.csv")}
+    x, y = (axis.name for axis in (Series(**series).x, Series(**series).ordinates[0]))
+    low, high, end = *printed[x].iloc[[0, -1]], model[x].iloc[-1]
+    beyond = high + np.linspace(0.1, 0.9, 9) * (end - high)
+    inside = low + np.linspace(0.05, 0.95, 19) * (high - low)
+
+    def row(places, curve, factor=1.0):
+        values = np.interp(places, model[x], model[y])
+        within = (places > low) & (places < high)
+        values[within] = np.interp(places[within], curve[x], curve[y])
+        pd.DataFrame({x: places, y: factor * values}).to_csv(series["path"], index=False)
+        found = compare("fig", path, {name: entry}, {entry["reference"]: series}, 0.01, {})[0]
+        assert found["group"] == Group.PRINTED
+        return [found[key] for key in ("verdict", "why", "entry")], found["note"]
+
+    both, equations = np.concatenate([inside, beyond]), other["equations"]
+    none, known = ["agrees", "", ""], ["differs", Why.KNOWN, other["entry"]]
+    found, note = row(both, model)
+    assert found == none and note.startswith(f"the print follows the model, not {equations}: rms 0")
+    found, note = row(both, printed)
+    assert found == known and note.startswith(f"the print follows {equations} as printed: rms ")
+    found, note = row(beyond, model)
+    assert found == none and note.startswith(f"it cannot tell the model from {equations} as ")
+    for curve in (model, printed):
+        found, note = row(both, curve, larger)
+        assert found == ["FAILS", "", ""], note
+        assert note.startswith(f"the print follows neither {equations} as printed nor the model")

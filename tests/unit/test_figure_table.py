@@ -4,7 +4,7 @@ from stronge1994 import figure_table, verdict_table
 from stronge1994.names import MODELS
 from stronge1994.verdict_table import Group, Why
 
-PAPER, OTHERS, SOLVER = Group
+PAPER, PRINTED, OTHERS, SOLVER = Group
 SIZES = {"points": "4", "rms": "0.02", "max": "0.03", "unit": "mu v2(0)"}
 MAW, CROSS = {"reference": "maw1976/rebound"}, {"reference": "cross2014/spin"}
 STATED = {
@@ -35,6 +35,7 @@ ROWS = [
     ("fig6", OTHERS, "agrees", STATED | {"stated": "< 0 N", "says": "friction reverses"}),
     ("fig6", OTHERS, "not compared", LOST | {"reference": "johnson1983/a", "why": Why.AWAITED}),
     ("fig6", OTHERS, "differs", OTHER_MODEL | MAW | KNOWN),
+    ("fig6", PRINTED, "not compared", LOST | {"why": Why.AWAITED}),
     ("fig7", SOLVER, "FAILS", LOST),
     ("fig7", PAPER, "FAILS", LIKE | {"entry": "", "paper": ""}),
     ("fig7", OTHERS, "FAILS", LOST | MAW),
@@ -58,6 +59,23 @@ Fig. 7  forces; not compared: printed curve
  FAILS        Maw 1976:
  FAILS        Cross 2014: spin, 4 points, rms 0.02 mu v2(0)"""
 SHOWS = {"fig2": "springs", "fig6": "rebound", "fig7": "forces"}
+# Printed curves of a figure, and what is told of them.
+FOLLOWS = {"says": "the print follows Eq. 25 as printed", "entry": "eq-15"}
+PRINTS = [
+    ("agrees", SIZES),
+    ("not compared", LOST | {"why": Why.AWAITED}),
+    ("differs", SIZES | KNOWN | FOLLOWS),
+    ("not compared", LOST | {"why": Why.SETTINGS}),
+    ("agrees", SIZES | {"rms": "0.04", "points": "12"}),
+    ("FAILS", SIZES | {"unit": "N"}),
+]
+TOLD = """\
+Fig. 6  rebound
+ FAILS        printed curve: 1 of 6, rms 0.02 N
+ differs      printed curve: 1 of 6, the print follows Eq. 25 as printed, rms
+              0.02 mu v2(0) from the model; cause known
+ not compared printed curve: 1 of 6; other settings
+ agrees       printed curve: 2 of 6, rms 0.036 mu v2(0)"""
 
 
 def test_the_table_says_what_every_comparison_has_found():
@@ -75,3 +93,17 @@ def test_the_table_says_what_every_comparison_has_found():
     assert figure_table.beyond(rows).endswith("others: 1 agrees, 1 differs (Rod)")
     made = "2 passed, 1 not compared, models: 1 differs (Fig. 6), 1 FAILS"
     assert figure_table.of_solver(rows).endswith(f"laws: {made}")
+
+
+def test_printed_curves_that_were_read_stand_first_the_worst_on_top():
+    empty = dict.fromkeys(verdict_table.COLUMNS, "") | {"figure": "fig6", "group": PRINTED}
+    rows = [
+        empty | {"verdict": verdict, "comparison": f"{place}"} | cells
+        for place, (verdict, cells) in enumerate(PRINTS)
+    ]
+    (row,) = table = figure_table.of_run(rows, {"fig6": "rebound"})
+    assert figure_table.text(table) == TOLD
+    assert row.awaited == 1 and row.printed[1].entry == "eq-15"
+    assert [item.rows for item in row.printed] == [["5"], ["2"], ["3"], ["0", "4"]]
+    assert figure_table.of_printed(rows) == "4 of 6 compared"
+    assert not figure_table.of_printed(rows[1:2])

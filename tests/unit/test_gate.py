@@ -60,12 +60,20 @@ def test_a_passed_run_says_where_to_look_and_what_next(words):
         "\n agrees       A: b, 50 points, rms 0.1 N\n" in said
         and "sentences of the paper: 1 wrong; 0 no" in said
     )
-    assert "PASSED: nothing has changed, 11 checks hold. Printed curves: not compared." in said
+    assert "PASSED: nothing has changed, 11 checks hold.\nPrinted curves: not compared (w" in said
     assert "one of 0 known differences leaves its bounds, or if one of 1\nverdicts" in said
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in said
     said = words(passed=["paper"], judged=1, whole=False)
     assert "row-4" in said and "No comparison fails" in said and "PASSED" not in said
+
+
+def test_printed_curves_are_counted_and_fail_no_run(words):
+    """A print that follows a misprint has no bounds, one of another incidence is for no run."""
+    said = words("differs", passed=["all"], group="printed figure")
+    assert "\nPrinted curves: 10 of 10 compared.\n" in said and "one of 0 known" in said
+    said = words("not compared", passed=["all"], group="printed figure", why="other settings")
+    assert "PASSED" in said and "Printed curves: not compared" in said
 
 
 def test_a_failed_run_names_its_rows_last_and_repeats_the_config(words):

@@ -6,7 +6,7 @@ import pytest
 from stronge1994 import reference_data
 from stronge1994.judging import comparisons
 from stronge1994.settings import config as configuration
-from tests.workflow.project import config, sources
+from tests.workflow.project import ROOT, config, head, schema, sources
 
 AXES = {
     "x": {"column": "incidence", "unit": "1", "sigma": 0.02, "range": [0, 20]},
@@ -31,11 +31,39 @@ def read(folder, text):
         f"\ufeff{HEADER}0.5, -.05\r\n1.,+0.25\r\n",  # BOM, CRLF and blanks
         f"who,{Y},{X}\nme,-0.05,0.5\nme,0.25,1\n",  # columns are known by their names
         f"{X}, {Y}\r0.5, -.05\r1,0.25\r",  # CR, a blank in the header
+        "incidence , velocity\n0.5, -0.05 \n 1,0.25\n",  # names that need no unit
+        "incidence[1],velocity [ 1 ]\n0.5,-0.05\n1,0.25\n\r\n\r\n",
         f'\n"incidence\n[1]",{Y}\n0.5,-0.05\n\n \n1,0.25\n\n',  # broken by Excel; blank lines
     ],
 )
 def test_a_table_gives_its_points(text, tmp_path):
     assert read(tmp_path, text) == [(0.5, -0.05), (1.0, 0.25)]
+
+
+@pytest.mark.parametrize("mu", ["mu", " \u00b5 ", "\u03bc"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_file_with_a_head_fills_an_awaited_series(mu, end, tmp_path):
+    """Its `open` setting comes from the head, where Excel may have put quotes and commas."""
+    folder, place = tmp_path / "johnson1983", "johnson1983/rubber_sphere"
+    folder.mkdir()
+    text = (ROOT / "data/johnson1983/source.yaml").read_text()
+    awaited = "    kind: awaited\n"
+    (folder / "source.yaml").write_text(text.replace(awaited, awaited + "    open: [incidence]\n"))
+    said = head(series=place, sigma_values=9, incidence=0.83).replace("# how: ", '"#how :  ')
+    table = f"incidence,velocity [{mu}v2(0)],\n1, 0.5,\n\n"
+    file = folder / "rubber_sphere.csv"
+    file.write_text((said.replace("marks\n", 'marks",,\n') + table).replace("\n", end), newline="")
+    series = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
+    by = "a test, with made-up points, 2020-02-29, from Fig. 5, p. 444 of my copy: a scan, "
+    assert series["digitised_by"] == f"{by}your_copy.html, 6 marks"
+    assert (series["kind"], series["points"], series["sigma_values"]) == ("digitised", 1, 9)
+    assert (series["x"]["sigma"], series["y"]["sigma"]) == (0.012, 0.01)
+    assert series["sigma_origin"] == "two readings; marks"
+    assert series["settings"] == {"rubber": {"stiffness_ratio": 1.5}, "incidence": 0.83}
+    assert reference_data.Series(**series).points().to_numpy().tolist() == [[1.0, 0.5]]
+    file.unlink()
+    awaited = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
+    assert (awaited["kind"], awaited["path"]) == ("awaited", None)
 
 
 def test_a_point_may_lie_three_sigmas_outside_the_range(tmp_path):

@@ -57,7 +57,7 @@ class Page:
             self.problems.append(message.text)
 
     def _ask(self, request):
-        if not request.url.startswith(("file:", "data:", "about:")):
+        if not request.url.startswith(("file:", "data:", "about:", "blob:")):
             self.problems.append(f"asks for {request.url}")
 
 

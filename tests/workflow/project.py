@@ -54,6 +54,21 @@ def awaited():
     return [name for name, entry in stated if "reference" in entry and waits(entry["reference"])]
 
 
+def head(**other):
+    """Head of a file that fills an awaited series; a key that is None is left out."""
+    keys = {
+        "who": "a test, with made-up points",
+        "when": "2020-02-29",
+        "from": "Fig. 5, p. 444 of my copy: a scan",
+        "how": "your_copy.html, 6 marks",
+        "sigma_x": 0.012,
+        "sigma_y": 0.01,
+        "sigma_origin": "two readings; marks",
+    }
+    said = (keys | other).items()
+    return "".join(f"# {key}: {value}\n" for key, value in said if value is not None)
+
+
 def checked(change, data=None, folder=ROOT):
     """Check a change of the config as a start of Snakemake does, with other data if need be."""
     changed = configuration.overridden(config(), change)

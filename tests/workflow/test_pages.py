@@ -92,6 +92,10 @@ def dead_links(folder, names):
             elif "=" in anchor and target.name == "explorer.html":
                 wrong = wrong_state(parsed(target).controls, anchor)
                 dead += [(name, link, wrong)] if wrong else []
+            elif target.name == "your_copy.html" and anchor.startswith("fig"):
+                panels = parsed(target).controls["panel"]["options"]
+                if not any(panel.startswith(anchor) for panel in panels):
+                    dead.append((name, link, "no such figure"))
             elif anchor and unquote(anchor) not in parsed(target).ids:
                 dead.append((name, link, "no such anchor"))
     return dead

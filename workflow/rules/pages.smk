@@ -99,9 +99,35 @@ rule explorer:
         "../scripts/write_explorer.py"
 
 
+rule your_copy:
+    """The page to lay a copy of the paper under the curves of the run, and to read its points."""
+    input:
+        versions="results/versions.json",
+        sources=sorted(map(str, Path("workflow/your_copy").glob("*.*"))) + ["workflow/explorer/files.js"],
+        curves=expand("results/curves/{figure}.csv", figure=PAPER),
+        parts=EVERY_PAGE,
+    output:
+        page="figures/your_copy.html",
+    log:
+        "results/logs/your_copy.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        figures=PAPER,
+        series=lambda _: {
+            f"{source}/{name}": entry
+            for source, stated in SOURCES.items()
+            for name, entry in stated.get("series", {}).items()
+        },
+        content=digest("workflow/scripts/write_your_copy.py"),
+    script:
+        "../scripts/write_your_copy.py"
+
+
 PAGES = [
     *rules.report.output,
     *rules.explorer.output,
+    *rules.your_copy.output,
     *expand(rules.lecture.output, notebook=NOTEBOOKS),
 ]
 

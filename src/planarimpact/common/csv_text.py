@@ -30,8 +30,10 @@ def decoded(content: bytes, line: int = 1) -> str:
         raise InputError(f"line {line}: {problem}") from None
 
 
-def header(text: str) -> list[str]:
+def header(text: str, line: int = 1) -> list[str]:
     """Cells of the first line of a table, without the blanks and line breaks around words.
+
+    It is this line of a file.
 
     Examples
     --------
@@ -41,20 +43,22 @@ def header(text: str) -> list[str]:
     try:
         cells = next(csv.reader(io.StringIO(text, newline=""), strict=True), [])
     except csv.Error as error:
-        raise InputError(f"line 1: {error}") from None
+        raise InputError(f"line {line}: {error}") from None
     if "\0" in text:
-        line = text[: text.index("\0")].count("\n") + 1
+        line += text[: text.index("\0")].count("\n")
         problem = "it has the character NUL, as UTF-16 has; save the file as UTF-8"
         raise InputError(f"line {line}: {problem}")
     if not cells:
-        raise InputError("line 1: it is empty; a header and rows belong there")
+        raise InputError(f"line {line}: it is empty; a header and rows belong there")
     separated = "commas separate cells, and decimals have a point"
     if cells[0].startswith("sep="):
         first = ",".join(cells)
-        raise InputError(f"line 1: {first!a} is for Excel alone: remove this line; {separated}")
+        raise InputError(
+            f"line {line}: {first!a} is for Excel alone: remove this line; {separated}"
+        )
     for mark in ";\t":
         if len(cells) == 1 and mark in cells[0]:
-            raise InputError(f"line 1: {mark!a} stands between cells; {separated}")
+            raise InputError(f"line {line}: {mark!a} stands between cells; {separated}")
     return [" ".join(cell.split()) for cell in cells]
 
 
@@ -66,7 +70,8 @@ def rows(text: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
     >>> rows("a,b\n\n1,2\n")
     (['a', 'b'], [(3, ['1', '2'])])
     """
-    names = header(text.lstrip())
+    begin = text.lstrip()
+    names = header(begin, 1 + text[: len(text) - len(begin)].count("\n"))
     reader = csv.reader(io.StringIO(text, newline=""), strict=True)
     found = []
     try:

@@ -10,11 +10,11 @@ from pydantic.dataclasses import dataclass
 
 from planarimpact.common.arrays import Array
 from stronge1994 import reference_data, tables
+from stronge1994.names import STRONGE
 from stronge1994.reference_data import Axis, Fact, Series
 from stronge1994.tables import Table
 from stronge1994.verdict_table import Group, Why
 
-PAPER = "stronge1994"  # the source that has what the paper states
 # Parts of the axis of incidence, in order; the limits of the regimes divide it into these.
 REGIMES = ("initial stick", "slip and stick", "slip throughout")
 
@@ -60,6 +60,19 @@ class KnownDifference:
 
 
 @dataclass(frozen=True)
+class OrPrinted:
+    """What a printed curve may follow in place of the model: the printed equations.
+
+    `curve` selects theirs, which has only the places where they differ. `entry` of the ledger says
+    what is wrong with these `equations`.
+    """
+
+    curve: dict[str, Any]
+    equations: str
+    entry: str
+
+
+@dataclass(frozen=True)
 class Allowance:
     """How far the model may be off by its form, in units of the axes."""
 
@@ -76,7 +89,8 @@ class Comparison:
     `points`, in the `regime`. `says` is what the reference says, for readers. A comparison, like a
     reference, may be for some `settings` of the figure alone. A known difference has `bounds` about
     what was found, of its `rms`, `max` or `difference` in the unit of the axis. They guard against
-    changes, and say nothing on what is right.
+    changes, and say nothing on what is right. Comparisons with the same `scale` share one that is
+    fitted, see `judging.scales`.
     """
 
     name: str
@@ -88,12 +102,14 @@ class Comparison:
     points: dict[str, Any] = field(default_factory=dict)
     regime: str = ""  # one of `REGIMES`
     allowance: Allowance | None = None
+    scale: str = ""
     landmark: Landmark | None = None
     columns: list[str] = field(default_factory=list)
     range: tuple[float, float] | None = None
     limit: float = 1.0  # in the unit of the axis, of a law
     settings: dict[str, Any] = field(default_factory=dict)
     differs: KnownDifference | None = None
+    or_printed: OrPrinted | None = None
     bounds: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     @classmethod
@@ -117,13 +133,14 @@ class Comparison:
         """With what it compares.
 
         OTHERS: points of nature, and what other codes compute and others state. PAPER: what the
-        paper states, and a difference that is an entry of the ledger. All else, our second codes
-        and laws, only checks our SOLVER.
+        paper states, and a difference that is an entry of the ledger. PRINTED: its printed curves.
+        All else, our second codes and laws, only checks our SOLVER.
         """
         known, reference = self.differs, self.reference
+        if reference is not None and reference.name.split("/")[0] == STRONGE:
+            return Group.PAPER if isinstance(reference, Fact) else Group.PRINTED
         if isinstance(reference, Fact):
-            by_paper = reference.name.split("/")[0] == PAPER
-            return Group.PAPER if by_paper else Group.OTHERS
+            return Group.OTHERS
         if reference is not None and (reference.is_published or reference.others):
             return Group.OTHERS
         return Group.PAPER if known and known.entry else Group.SOLVER

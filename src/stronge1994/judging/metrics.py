@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from planarimpact.common.arrays import Array
 from stronge1994 import tables
@@ -25,7 +26,8 @@ class Measured(NamedTuple):
     `quantity` is the column of their positions `at`. `sigmas` and `plain` are `Distances`; of each
     one `scales` has the sigma in the unit of its axis, `columns` its column, and `curves` its
     curve, if that is not the only one. `shifts` has a row for each uncertain parameter: the change
-    of all `sigmas` if it is off by one sigma.
+    of all `sigmas` if it is off by one sigma. `fitted` is how many parameters were fitted to these
+    points: a part of one that others share, see `judging.scales`, of which `note` tells.
     """
 
     quantity: str
@@ -36,6 +38,8 @@ class Measured(NamedTuple):
     columns: list[str]
     curves: Sequence[str] = ()
     shifts: Array = np.zeros((0, 0))
+    fitted: float = 0
+    note: str = ""
 
     @property
     def worst(self) -> int:
@@ -67,6 +71,18 @@ def measure(comparison: Comparison, curves: Table) -> Measured:
     if isinstance(reference, Fact):
         return _from_fact(comparison, reference, curves)
     return _LAWS[comparison.metric](comparison, curves)
+
+
+def as_printed(comparison: Comparison, curves: Table) -> Table:
+    """The curve of a comparison with the stretch where the printed equations give another one."""
+    series, other = comparison.reference, comparison.or_printed
+    assert isinstance(series, Series) and other is not None
+    own, printed = (tables.select(curves, **c) for c in (comparison.curve, other.curve))
+    tables.only_curve(own)
+    x, stretch = series.x.name, printed[series.x.name]
+    stretched = printed.assign(**{key: own[key].iloc[0] for key in tables.KEYS})
+    before, after = own[own[x] <= stretch.min()], own[own[x] >= stretch.max()]
+    return pd.concat([before, stretched, after], ignore_index=True)
 
 
 def _from_points(comparison: Comparison, series: Series, curves: Table) -> Measured:

@@ -13,9 +13,10 @@ import pandas as pd
 
 from stronge1994 import tables
 from stronge1994.formulas import plain
+from stronge1994.judging import scales
 from stronge1994.judging.comparisons import Comparison
-from stronge1994.judging.metrics import Measured, measure, rms_and_max
-from stronge1994.judging.verdicts import judge
+from stronge1994.judging.metrics import Measured, as_printed, measure, rms_and_max
+from stronge1994.judging.verdicts import judge, judge_print
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table, with_unit
 from stronge1994.verdict_table import COLUMNS, Verdict, Why
@@ -44,7 +45,9 @@ def compare(
     curves = read(path)
     every = [Comparison.of(title, entry, references) for title, entry in comparisons.items()]
     return [
-        dict.fromkeys(COLUMNS, "") | {"figure": name} | _row(one, curves, significance, settings)
+        dict.fromkeys(COLUMNS, "")
+        | {"figure": name}
+        | _row(one, curves, significance, settings, scales.sharing(one, every, settings))
         for one in every
     ]
 
@@ -59,9 +62,16 @@ def read(path: str) -> Table:
 
 
 def _row(
-    comparison: Comparison, curves: Table, significance: float, settings: Mapping[str, Any]
+    comparison: Comparison,
+    curves: Table,
+    significance: float,
+    settings: Mapping[str, Any],
+    sharing: Sequence[Comparison],
 ) -> VerdictRow:
-    """Cells of one comparison: what was measured, and the verdict on it."""
+    """Cells of one comparison: what was measured, and the verdict on it.
+
+    `sharing` are all comparisons that share its scale.
+    """
     reference, known = comparison.reference, comparison.differs
     cells: VerdictRow = {
         "comparison": comparison.name,
@@ -81,15 +91,30 @@ def _row(
     if known:
         cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
-        measured = measure(comparison, curves)
+        if comparison.scale:
+            measured = scales.measure(comparison, curves, sharing)
+        else:
+            measured = measure(comparison, curves)
         verdict, numbers = _judged(comparison, measured, significance)
+        if comparison.or_printed:
+            printed = measure(comparison, as_printed(comparison, curves))
+            verdict, cells["says"] = judge_print(comparison, measured, printed, significance)
+            of_model, of_printed = (
+                with_unit(float(f"{one.sizes['rms']:.2g}"), numbers["unit"])
+                for one in (measured, printed)
+            )
+            sizes = f"rms {of_model} from the model, {of_printed} from these equations"
+            cells["note"] = f"{cells['says']}: {sizes}"
     except Exception as error:
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     cells |= numbers | {"verdict": verdict}
+    cells["note"] = "; ".join(filter(None, (cells.get("note"), measured.note)))
     if verdict == Verdict.DIFFERS and known:
         cells |= {"why": known.why, "paper": known.paper}
+    elif verdict == Verdict.DIFFERS and comparison.or_printed:
+        cells |= {"why": Why.KNOWN, "entry": comparison.or_printed.entry}
     elif verdict == Verdict.FAILS and len(measured.at) > 1:
-        cells["note"] = "; ".join(filter(None, (cells.get("note"), _place(measured))))
+        cells["note"] = "; ".join(filter(None, (cells["note"], _place(measured))))
     of = measured.curves or cells["curve"]
     own = comparison.name, of, measured.quantity, measured.at, measured.sigmas
     return cells | {"residuals": pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))}
@@ -125,7 +150,7 @@ def _judged(
         values = measured.plain + sum(comparison.range) / 2
         cells["found"] = f"{values.min():.3g} to {values.max():.3g}"
     if chi2:
-        cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
+        cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": f"{round(chi2.degrees, 1):g}"}
         cells |= {"degrees of sigma": chi2.of_sigma or "", "p": f"{chi2.p:.2g}"}
     return verdict, cells
 

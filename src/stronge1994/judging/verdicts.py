@@ -1,7 +1,9 @@
 """From distances to a verdict: chi-squared for published points, a tolerance for all others.
 
 Published points that agree with a curve are evidence only if they could have disagreed. So the
-verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas.
+verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas. A fitted scale stays as
+it was for them: it would follow any shift that looks like another scale, and the question is
+whether the test notices differences of that size in the shape, which no scale explains.
 """
 
 import numpy as np
@@ -15,6 +17,8 @@ from stronge1994.verdict_table import Group, Verdict
 # If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
 # curve is wrong. A comparison that does not notice it says less than the picture.
 VISIBLE_SHIFT = 2.0
+# Values from which sigmas are as good as known: the F test has the p of chi-squared.
+ALL_KNOWN = 1000
 
 
 def judge(
@@ -41,12 +45,42 @@ def judge(
     return Verdict.AGREES, chi2
 
 
+def judge_print(
+    comparison: Comparison, of_model: Measured, of_printed: Measured, significance: float
+) -> tuple[Verdict, str]:
+    """Verdict on a printed curve, and what it follows: the model, the printed equations, none."""
+    other = comparison.or_printed
+    assert other is not None
+    verdict, _ = judge(comparison, of_model, significance)
+    follows, _ = _is_good(comparison, of_printed, significance)
+    if verdict != Verdict.FAILS:
+        alike = f"it cannot tell the model from {other.equations} as printed"
+        return verdict, alike if follows else f"the print follows the model, not {other.equations}"
+    if follows:
+        return Verdict.DIFFERS, f"the print follows {other.equations} as printed"
+    return verdict, f"the print follows neither {other.equations} as printed nor the model"
+
+
 def _is_good(
     comparison: Comparison, measured: Measured, significance: float
 ) -> tuple[bool, ChiSquared | None]:
     """Whether distances are small enough, and chi-squared of published points."""
     reference = comparison.reference
     if isinstance(reference, Series) and reference.is_published:
-        chi2 = chi_squared(measured.sigmas, measured.shifts, reference.sigma_values)
+        values = _values_of_sigma(comparison, measured, reference.sigma_values)
+        chi2 = chi_squared(measured.sigmas, measured.shifts, values, measured.fitted)
         return chi2.p > significance, chi2
     return bool(np.abs(measured.sigmas).max() <= 1.0), None
+
+
+def _values_of_sigma(comparison: Comparison, measured: Measured, values: int | None) -> int | None:
+    """From how many values the sigmas are as good as estimated, None if as good as known.
+
+    An allowance is known, and only the rest of the variance was estimated: so they are as good as
+    from more values (Welch 1947, Satterthwaite 1946).
+    """
+    if values is None or comparison.allowance is None:
+        return values
+    estimated = 1.0 - (comparison.allowance.y / measured.scales) ** 2
+    effective = values / max(float(np.mean(estimated**2)), values / ALL_KNOWN)
+    return round(effective) if effective < ALL_KNOWN else None

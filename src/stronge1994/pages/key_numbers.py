@@ -66,8 +66,9 @@ def write(path: str, numbers: Numbers) -> None:
 def _counts(verdicts: Sequence[Row], ledger: Sequence[Row]) -> Numbers:
     """How many rows have each verdict, those that check our solver apart, or each grade.
 
-    `published` are compared with published points.
+    `published` are compared with published points. Printed curves do not count.
     """
+    verdicts = [row for row in verdicts if row["group"] != Group.PRINTED]
     rows = Counter(
         (row["group"] == Group.SOLVER, part)
         for row in verdicts

@@ -29,7 +29,7 @@ from stronge1994.pages import (
     which_model,
 )
 from stronge1994.tables import Row
-from stronge1994.verdict_table import Group, Verdict
+from stronge1994.verdict_table import Group, Verdict, Why
 
 MEANING = {
     Verdict.FAILS: "outside its tolerance, or a known difference has changed: the run fails",
@@ -37,7 +37,8 @@ MEANING = {
     "published, so that nobody can say what a difference means",
     Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, and all points lay "
     f"{VISIBLE_SHIFT:g} sigmas beside it",
-    Verdict.NOT_COMPARED: "points are awaited, or are for other settings than those of the run",
+    Verdict.NOT_COMPARED: "points, most of them of printed curves, are awaited, or are for other "
+    "settings than those of the run",
     Verdict.AGREES: "within the tolerance of a stated value, or chance explains the distances",
 }
 # What stands first among the comparisons of a figure.
@@ -64,10 +65,11 @@ def page(values: TemplateValues, template: Path) -> str:
         lapsed=outcome.failing(values["ledger"]),
         grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
         unmade=gate.unmade(verdicts),
-        known=[row for row in verdicts if row["verdict"] == Verdict.DIFFERS],
+        known=verdict_table.known(verdicts),
         in_paper=[row for row in table if is_of_paper(row.figure)],
         beyond=[row for row in table if not is_of_paper(row.figure) and row.others],
         of_solver=figure_table.of_solver(verdicts),
+        of_printed=figure_table.of_printed(verdicts),
         beyond_paper=figure_table.beyond(verdicts),
         meaning=MEANING,
         scenes=parts([row for row in verdicts if row["figure"] not in values["figures"]]),
@@ -110,10 +112,13 @@ def figure(
 def parts(rows: Sequence[Row]) -> TemplateValues:
     """Comparisons that stand first, as they fail, are not made or differ; the rest, and its counts.
 
-    Differences of other models than the paper's, and of our own checks, are in the rest.
+    Differences of other models than the paper's, and of our own checks, are in the rest, and so are
+    printed curves that are awaited.
     """
 
     def of_paper(row: Row) -> bool:
+        if row["group"] == Group.PRINTED:
+            return row["why"] != Why.AWAITED
         return row["model"] in figure_table.MODELS_OF_PAPER and row["group"] != Group.SOLVER
 
     first = [

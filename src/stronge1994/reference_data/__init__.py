@@ -1,7 +1,7 @@
 """The reference data in data/: loaded and checked, or refused with one clear message.
 
 A source is a folder with `source.yaml` (schema: workflow/schemas/source.schema.yaml) and one CSV
-for each series that is not awaited.
+for each series; that of an awaited one may be missing, and has a head if it is there.
 """
 
 import copy
@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from planarimpact.common import checks
-from stronge1994.reference_data import strict_yaml
+from stronge1994.reference_data import reading, strict_yaml
 from stronge1994.reference_data.series import (
     Axis,
     Fact,
@@ -67,36 +67,41 @@ def _validator() -> Any:
 
 
 def load(folder: Path, schema: Schema) -> Source:
-    """Load and check a folder of data/; each series gets its `path`, None while awaited."""
+    """Load and check a folder of data/; each series gets its `path`, None while awaited.
+
+    An awaited series whose file is there becomes `digitised`, with what the head of the file says.
+    """
     path = folder / "source.yaml"
     source = load_yaml(path)
     refuse_invalid(source, schema, path)
-    for name, series in source.get("series", {}).items():
+    every, names = source.get("series", {}), _visible(folder)
+    for name, series in every.items():
+        file = folder / f"{name}.csv"
         for where, axis in Series(**series).axes.items():
             _refuse_axis(f"{path}: series.{name}.{where}", axis, series["kind"])
         series["path"] = None
-        if series["kind"] != "awaited":
-            series["path"] = str(folder / f"{name}.csv")
+        if series["kind"] == "awaited" and file.name in names:
+            every[name] = read = reading.filled(series, file)
+            for where, axis in Series(**read).axes.items():
+                _refuse_sigma(f"{file}: sigma_{where}", axis)
+            read["points"] = len(Series(**read).points())
+        elif series["kind"] != "awaited":
+            series["path"] = str(file)
             count = len(Series(**series).points())
             if count != series.get("points"):
                 where = f"{path}: series.{name}.points = {series.get('points')}"
                 raise SourceError(f"{where}: {series['path']} has {count} points")
-    own = {Path(s["path"]).name for s in source.get("series", {}).values() if s["path"]}
+    own = {f"{name}.csv" for name in every}
     known = {"source.yaml", *own, *source.get("made_with", [])}
     for name in source.get("made_with", []):
         if not (folder / name).is_file():
             raise SourceError(f"{folder / name}: missing, and {path} says it is there")
     # A ledger or the program that computes a series may lie there. Any other file that is not in
     # `made_with` is refused: it may be a table with a wrong name, which would silently be ignored.
-    strays = sorted(
-        name for name in _visible(folder) - known if not name.endswith((".yaml", ".py"))
-    )
+    strays = sorted(name for name in names - known if not name.endswith((".yaml", ".py")))
     if strays:
         allowed = ", ".join(sorted(own)) or "none"
-        raise SourceError(
-            f"{folder / strays[0]}: no series of that name is at hand; allowed are {allowed}. A "
-            "series that was awaited becomes `kind: digitised`"
-        )
+        raise SourceError(f"{folder / strays[0]}: no series of that name; allowed are {allowed}")
     return source
 
 
@@ -112,12 +117,17 @@ def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
         raise SourceError(
             f"{where}.range = [{low:g}, {high:g}]: the first number must be the smaller"
         )
-    if isinstance(axis.sigma, str) or kind == "measured":
-        return
+    if not (isinstance(axis.sigma, str) or kind == "measured"):
+        _refuse_sigma(f"{where}.sigma", axis)
+
+
+def _refuse_sigma(where: str, axis: Axis) -> None:
+    """Refuse a sigma with which points would judge nothing."""
+    low, high = axis.range
     most = LARGEST_SIGMA * (high - low)
-    if axis.sigma > most:
+    if float(axis.sigma) > most:
         raise SourceError(
-            f"{where}.sigma = {axis.sigma:g}: allowed is up to {most:g}, a hundredth of the "
+            f"{where} = {axis.sigma:g}: allowed is up to {most:g}, a hundredth of the "
             f"range {low:g} to {high:g}; with more the series would judge nothing"
         )
 

@@ -1,5 +1,7 @@
 """Series and stated facts of a source.yaml as objects with fields, and the points of a series."""
 
+import io
+import itertools
 import math
 import re
 from collections.abc import Mapping
@@ -9,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike, NDArray
 from pydantic.dataclasses import dataclass
 
 from planarimpact.common import csv_text
@@ -21,6 +24,11 @@ PUBLISHED = ("measured", "digitised", "stated", "awaited")
 NUMBER = re.compile(r"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?")
 # Sigmas by which a value may lie outside the range of its axis.
 MOST_SIGMAS_OUTSIDE = 3
+# How others write the letters of our units.
+LETTERS = str.maketrans({"\u00b5": "mu", "\u03bc": "mu", "\u03a9": "Omega", "\u2126": "Omega"})
+# A row whose decimals have commas: `1,5;2,3` or `"1,5","2,3"` or `1,5,2,3`.
+WITH_COMMAS = re.compile(r'^"?[+-]?\d+,\d+"? *[,;\t] *"?[+-]?\d+,\d+"? *$', re.M)
+COMMAS = "decimal commas; allowed are points, and commas between cells"
 
 
 class SourceError(Exception):
@@ -54,6 +62,23 @@ class Axis:
         if not isinstance(self.sigma, str):
             return None
         return Axis(self.sigma, self.unit, 0.0, self.range).name
+
+    @property
+    def beyond(self) -> float:
+        """How far a value may lie outside the range.
+
+        One with an uncertainty of its own lies in the range: no axis of a picture was read.
+        """
+        return 0.0 if isinstance(self.sigma, str) else MOST_SIGMAS_OUTSIDE * self.sigma
+
+    def admits(self, values: ArrayLike) -> NDArray[np.bool_]:
+        """Which of some values can be; an empty cell, nan, can.
+
+        >>> Axis("angle", "deg", 0.5, (0, 90)).admits([-1.5, -1.6, np.nan]).tolist()
+        [True, False, True]
+        """
+        low, high = self.range[0] - self.beyond, self.range[1] + self.beyond
+        return np.logical_not(np.less(values, low) | np.greater(values, high))
 
     def sigmas(self, points: Table) -> Array:
         """The uncertainty of each of some points of its series.
@@ -110,6 +135,7 @@ class Series:
     figure: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
     settings: dict[str, Any] = field(default_factory=dict)
+    open: tuple[str, ...] = ()
 
     @property
     def ordinates(self) -> tuple[Axis, ...]:
@@ -143,14 +169,37 @@ class Series:
         lines, cells = _cells(path, [*self.labels, *axes])
         may_be_empty = {axis.name for axis in self.y} if isinstance(self.y, tuple) else set()
         columns: dict[str, Any] = {label: _label(cells[label]) for label in self.labels}
-        for column, axis in axes.items():
+        for column in axes:
             columns[column] = [
-                _number(cell, axis, f"{path}, line {line}, column '{column}'")
+                _number(cell, f"{path}, line {line}, column '{column}'")
                 if cell or column not in may_be_empty
                 else math.nan
                 for line, cell in zip(lines, cells[column], strict=True)
             ]
-        return pd.DataFrame(columns)
+        points = pd.DataFrame(columns)
+        for column, axis in axes.items():
+            if not (admitted := axis.admits(points[column])).all():
+                row, (low, high) = int(admitted.argmin()), axis.range
+                where = f"{path}, line {lines[row]}, column '{column}'"
+                raise SourceError(
+                    f"{where}: {cells[column][row]} is outside {low:g} to {high:g} by more than "
+                    f"{MOST_SIGMAS_OUTSIDE} sigmas, {axis.beyond:g}"
+                    + self._guess(points, axes, column)
+                )
+        return points
+
+    def _guess(self, points: Table, axes: Mapping[str, Axis], outside: str) -> str:
+        """What may be wrong with points of which one is outside: all would fit without it."""
+        x, y = self.x.name, self.ordinates[0].name
+        guesses = {
+            "; are the columns exchanged?": {x: points[y], y: points[x]},
+            "; is its sign turned?": {outside: -points[outside]},
+        }
+        for guess, changed in guesses.items():
+            tried = points.assign(**changed)
+            if all(axis.admits(tried[column]).all() for column, axis in axes.items()):
+                return guess
+        return ""
 
 
 def of(name: str, entry: Mapping[str, Any]) -> Series | Fact:
@@ -168,22 +217,50 @@ def text_of(path: str | Path) -> str:
         raise SourceError(f"{path}, {error}") from None
 
 
+def head_and_table(text: str) -> tuple[list[str], str]:
+    r"""Lines with # before a table, and the text with blank ones there: lines keep their numbers.
+
+    >>> head_and_table("# who: me\na,b\n1,2\n")
+    (['# who: me\n'], '\na,b\n1,2\n')
+    """
+    lines = list(io.StringIO(text, newline=None))
+    head = list(itertools.takewhile(lambda line: line.strip('" \t\r\n')[:1] in ("", "#"), lines))
+    return head, "\n" * len(head) + "".join(lines[len(head) :])
+
+
 def _cells(path: str, columns: list[str]) -> tuple[list[int], dict[str, list[str]]]:
-    """Lines of the rows of a table, and the cells of these columns, which it must have."""
+    """Lines of the rows of a table, and the cells of these columns, which it must have.
+
+    A header may lack the unit of a column that has its name alone, or have other blanks in it.
+    """
+    head, text = head_and_table(text_of(path))
     try:
-        header, rows = csv_text.rows(text_of(path))
+        header, rows = csv_text.rows(text)
     except ValueError as error:
-        raise SourceError(f"{path}, {error}") from None
-    for column in columns:
-        if header.count(column) != 1:
-            problem = "stands twice" if column in header else "is missing"
+        problem = f"{error}"
+        if row := WITH_COMMAS.search(text):
+            line = text.count("\n", 0, row.start()) + 1
+            problem = f"line {line}: {row[0]!a} has {COMMAS}"
+        raise SourceError(f"{path}, {problem}") from None
+    places, bare = {}, [column.partition(" [")[0] for column in columns]
+    for column, name in zip(columns, bare, strict=True):
+        known = {_squeezed(column), _squeezed(name if bare.count(name) == 1 else column)}
+        at = [place for place, cell in enumerate(header) if _squeezed(cell) in known]
+        if len(at) != 1:
+            problem = "stands twice" if at else "is missing"
             found = ascii(", ".join(header))[1:-1]
-            raise SourceError(f"{path}, line 1: column '{column}' {problem}; found {found}")
+            where = f"{path}, line {len(head) + 1}"
+            raise SourceError(f"{where}: column '{column}' {problem}; found {found}")
+        places[column] = at[0]
     if not rows:
         raise SourceError(f"{path}: no points")
-    places = {column: header.index(column) for column in columns}
-    cells = {column: [row[place] for _, row in rows] for column, place in places.items()}
+    cells = {column: [row[place].strip() for _, row in rows] for column, place in places.items()}
     return [line for line, _ in rows], cells
+
+
+def _squeezed(name: str) -> str:
+    """A name of a column in our letters, without blanks."""
+    return "".join(name.translate(LETTERS).split())
 
 
 def _label(cells: list[str]) -> Any:
@@ -193,18 +270,9 @@ def _label(cells: list[str]) -> Any:
     return cells
 
 
-def _number(cell: str, axis: Axis, where: str) -> float:
-    """A decimal number, at most a little outside the range of its axis."""
-    text = cell.strip()
-    if not NUMBER.fullmatch(text):
-        raise SourceError(f"{where}: {ascii(text)} is not a decimal number such as -0.05")
-    value = float(text)
-    low, high = axis.range
-    # Values with an uncertainty of their own lie in the range: no axis of a picture was read.
-    beyond = 0.0 if isinstance(axis.sigma, str) else MOST_SIGMAS_OUTSIDE * axis.sigma
-    if not low - beyond <= value <= high + beyond:
-        raise SourceError(
-            f"{where}: {text} is outside {low:g} to {high:g} by more than {MOST_SIGMAS_OUTSIDE} "
-            f"sigmas, {beyond:g}"
-        )
-    return value
+def _number(cell: str, where: str) -> float:
+    """A decimal number."""
+    if NUMBER.fullmatch(cell):
+        return float(cell)
+    problem = f"has {COMMAS}" if {*",;"} & {*cell} else "is not a decimal number such as -0.05"
+    raise SourceError(f"{where}: {cell!a} {problem}")

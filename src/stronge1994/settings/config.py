@@ -120,12 +120,13 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
                 "allowed are " + ", ".join(judged(config))
             )
         _check_comparison(f"config: comparisons.{name}", comparison, inventory)
-        entry = comparison.get("differs", {}).get("entry")
-        if entry is not None and entry not in ledger:
-            raise ConfigError(
-                f"config: comparisons.{name}.differs.entry: {entry!a} is not in the ledger; a "
-                "difference that does not concern the paper has a `note` instead"
-            )
+        for key in ("differs", "or_printed"):
+            entry = comparison.get(key, {}).get("entry")
+            if entry is not None and entry not in ledger:
+                raise ConfigError(
+                    f"config: comparisons.{name}.{key}.entry: {entry!a} is not in the ledger; a "
+                    "difference that does not concern the paper has a `note` instead"
+                )
 
 
 def _check_source(where: str, name: str, needed: list[str], inventory: Inventory) -> None:

@@ -59,10 +59,11 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
         )
     )
     paper = [normal, tangential]
-    on_right = {name: series for name, series in points.items() if name in ENLARGED_SERIES}
-    on_left = {name: series for name, series in points.items() if name not in ENLARGED_SERIES}
-    paper += house_style.references(axes, on_left, X, Y, SERIES).values()
-    paper += house_style.references(enlarged, on_right, X, Y, ENLARGED_SERIES).values()
+    on_right = {name: series for name, series in points.items() if "friction" in name}
+    on_left = {name: series for name, series in points.items() if name not in on_right}
+    read = house_style.references(axes, on_left, X, Y, SERIES)
+    read |= house_style.references(enlarged, on_right, X, Y, ENLARGED_SERIES)
+    paper += read.values()
     for name, (label, dashes) in STATED.items():
         if name in points:
             where = rf"{largest}, {label} ${points[name].value:g}\degree$"

@@ -1,6 +1,7 @@
 """Figs 3 and 4: forces and tangential velocity against time."""
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -51,11 +52,9 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
         label = house_style.parameters(curve)
         house_style.line(velocity, curve, TIME, VELOCITY, label=label, **black | light)
         patterns.append(house_style.key(label, **black))
-    series = [
-        entry
-        for axes, column in ((forces, FRICTION), (velocity, VELOCITY))
-        for entry in house_style.references(axes, points, TIME, column).values()
-    ]
+    series: dict[str, Any] = {}
+    for axes, column in ((forces, NORMAL), (forces, FRICTION), (velocity, VELOCITY)):
+        series |= house_style.references(axes, points, TIME, column)
     forces.set(ylabel="force", yticks=np.linspace(-1, 1, 5))
     velocity.set(ylabel=r"velocity $v_1(t)/\mu v_2(0)$", xlim=(0, None))
     for axes in (forces, velocity):
@@ -63,7 +62,9 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
         axes.axvline(1, **house_style.GUIDE)
     house_style.letter([forces, velocity])
     states = [Patch(label=f"it {state}s", facecolor=fill, **BAR) for state, fill in FILLS.items()]
-    house_style.legend_below(figure, [*quantities[: len(FORCES)], *series], [*patterns, *states])
+    house_style.legend_below(
+        figure, [*quantities[: len(FORCES)], *series.values()], [*patterns, *states]
+    )
     return figure
 
 

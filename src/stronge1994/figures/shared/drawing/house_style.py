@@ -95,6 +95,7 @@ SURFACE: Style = {"facecolor": "0.9", "hatch": "////", "edgecolor": "0.7", "line
 PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 # A series for which a drawing has no style of its own.
 POINT: Style = {"marker": "o", "markerfacecolor": "white", "markersize": 3.6}
+OF_PRINT = ("read from the printed curves", POINT | {"color": "0.3", "marker": "+"})
 AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
 
@@ -268,15 +269,18 @@ def references(
     """Draw all published series with the axes of a panel; entries of the legend by their names.
 
     `styles` has label and style of some series, which come first; one of them that is awaited has
-    an entry too.
+    an entry too. Series of the printed curves have one entry.
     """
     entries: dict[str, Any] = {
         name: key(f"{label}: awaited", linestyle="none") for name, (label, _) in styles.items()
     }
     for name, series in points.items():
         if isinstance(series, Scatter) and series.is_published and series.axes == (x, y):
-            label, style = styles.get(name, (name, POINT))
-            entries[name] = measured(axes, series, label=label, **style)
+            own = OF_PRINT if name.startswith(f"{names.STRONGE}/") else (name, POINT)
+            label, style = styles.get(name, own)
+            entries[name if name in styles else label] = measured(
+                axes, series, label=label, **style
+            )
     return entries
 
 

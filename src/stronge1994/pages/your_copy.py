@@ -1,0 +1,93 @@
+"""The page that lays a copy of the paper under the curves of a run, and reads its points."""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from markupsafe import Markup
+
+from stronge1994 import tables
+from stronge1994.judging import distances
+from stronge1994.pages import templates
+from stronge1994.reference_data import Series, strict_yaml
+from stronge1994.tables import Table
+
+Panel: TypeAlias = dict[str, Any]
+# Scripts of the page, each after those that it uses; the first is the explorer's.
+SCRIPTS = ("files.js", "map.js", "trace.js", "exports.js", "readings.js", "page.js")
+WORDS = ("name", "line", "series")  # of a curve
+DIGITS = 6  # of the curves, more than a print has
+
+
+def page(
+    paths: Sequence[str], curves: Mapping[str, str], series: Mapping[str, Any], version: str
+) -> str:
+    """The page as text, from its sources, tables of curves by figure, and `{source/name: entry}`.
+
+    Without the curve that a setting of the run takes away, the page has the others.
+    """
+    texts = {Path(path).name: Markup(Path(path).read_text(encoding="utf-8")) for path in paths}
+    stated = strict_yaml.load(str(texts["panels.yaml"]))["panels"]
+    read = {figure: tables.read(path) for figure, path in curves.items()}
+    panels = {name: _panel(panel, read[panel["figure"]], series) for name, panel in stated.items()}
+    folder = next(Path(path).parent for path in paths if path.endswith("your_copy.html"))
+    data = json.dumps({"version": version, "panels": panels}, ensure_ascii=False)
+    template = templates.environment(folder).get_template("your_copy.html")
+    return template.render(
+        sources=texts, panels=panels, scripts=SCRIPTS, data=Markup(data.replace("</", "<\\/"))
+    )
+
+
+def _panel(panel: Panel, table: Table, series: Mapping[str, Any]) -> Panel:
+    """A panel with the points of its curves, the series that can be read in it, and checks."""
+    markers = panel.get("points", [])
+    curves = [own for stated in panel["curves"] for own in _curves(stated, panel, table)]
+    named = [*markers, *(one["series"] for one in curves if "series" in one)]
+    check = [_check(place, curve, panel["range"]) for place, curve in enumerate(curves)]
+    found = [_readable(full, series[full], full not in markers) for full in named]
+    return panel | {"curves": curves, "series": found, "check": check}
+
+
+def _readable(full: str, entry: Mapping[str, Any], line: bool) -> dict[str, Any]:
+    """A series that the page can read: its columns, and whether it is a line or markers."""
+    own = Series(**entry)
+    columns = [own.x.name, own.ordinates[0].name]
+    name = f"{entry['figure']}{'' if own.path is None else ' (at hand)'}"
+    return {
+        "id": full,
+        "name": name,
+        "line": line,
+        "columns": columns,
+        "ranges": [list(own.x.range), list(own.ordinates[0].range)],
+        "open": list(entry.get("open", [])),
+    }
+
+
+def _curves(stated: Panel, panel: Panel, table: Table) -> Iterator[Panel]:
+    """Curves of an entry of panels.yaml, one for each case; none that the run does not have."""
+    low, high = panel["range"][0]
+    ((key, values),) = stated.get("each", {"": [""]}).items()
+    for value in values:
+        words = {one: stated[one].replace("{}", f"{value}") for one in WORDS if one in stated}
+        try:
+            own = tables.select(table, **stated["select"], **({key: value} if key else {}))
+        except ValueError:
+            continue
+        x, y = (own[stated.get(axis, panel[axis])].to_numpy() for axis in ("x", "y"))
+        kept = (x >= low - 0.1 * (high - low)) & (x <= high + 0.1 * (high - low))
+        yield words | {"x": _short(x[kept]), "y": _short(y[kept])}
+
+
+def _short(values: Any) -> list[float]:
+    return [float(f"{value:.{DIGITS}g}") for value in values]
+
+
+def _check(place: int, curve: Panel, spans: Sequence[Sequence[float]]) -> dict[str, Any]:
+    """A point beside a curve, and its distance as the judge measures it."""
+    scales = [high - low for low, high in spans]
+    point = [low + 0.37 * (high - low) for low, high in spans]
+    line = curve["x"], curve["y"]
+    one = [[value] for value in point]
+    near, above = distances.curve_residuals(one, line, (scales[0], scales[1]))
+    return {"curve": place, "point": point, "near": abs(float(near[0])), "above": float(above[0])}

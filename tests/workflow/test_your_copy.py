@@ -1,0 +1,251 @@
+"""The page that lays a copy of the paper under our curves, and a reader of made-up prints.
+
+Each click misses its place by half a pixel. What is saved is judged as the jobs of a run do it.
+"""
+
+import re
+import shutil
+
+import numpy as np
+import pandas as pd
+import pytest
+from PIL import Image
+
+from planarimpact import continuum, lumped, rigid
+from stronge1994 import reference_data, tables
+from stronge1994 import settings as figure_settings
+from stronge1994.judging import compare, distances
+from tests.workflow import prints
+from tests.workflow.project import ROOT, config, schema, sources
+
+RUBBER, LOSSY = "johnson1983/rubber_sphere", "stronge1994/fig6_e_0.5"
+LIMITS = {"fig5": ((0, 8), (-3, 1)), "fig6": ((0, 8), (-3, 3))}
+# Those that the page proposes.
+MARKS = [(x, 0) for x in (0, 2, 4, 6)] + [(0, y) for y in (1, -1, -2, -3)]
+X = np.linspace(0.0, 8.0, 401)
+# Where a pixel of the picture is in the window, once the stage shows it.
+SHOW = """([u, v]) => {
+  const scale = sheet.getBoundingClientRect().width / sheet.viewBox.baseVal.width;
+  stage.scrollTo(u * scale - stage.clientWidth / 2, v * scale - stage.clientHeight / 2);
+  const { left, top } = sheet.getBoundingClientRect();
+  return [left + u * scale, top + v * scale]; }"""
+GIVE = """([how, bytes]) => {
+  const given = new DataTransfer(), more = { bubbles: true, cancelable: true };
+  given.items.add(new File([new Uint8Array(bytes)], "a.jpg", { type: "image/jpeg" }));
+  document.body.dispatchEvent(how === "drop" ? new DragEvent(how, { dataTransfer: given, ...more })
+    : new ClipboardEvent(how, { clipboardData: given, ...more })); }"""
+
+
+class Reader:
+    """Who has opened a print, and uses the mouse."""
+
+    def __init__(self, tab, pixel):
+        self.page, self.pixel = tab.page, pixel
+        self.rng = np.random.default_rng(1994)
+
+    def place(self, x, y, miss=0.0):
+        angle = self.rng.uniform(0.0, 2.0 * np.pi)
+        u, v = self.pixel(x, y) + miss * np.array([np.cos(angle), np.sin(angle)])
+        return self.page.evaluate(SHOW, [float(u), float(v)])
+
+    def click(self, places):
+        for place in places:
+            self.page.mouse.click(*self.place(*place, miss=0.5))
+
+    def read(self, series, places, follow=False):
+        """Read places twice, the second time from the last to the first."""
+        self.page.check("#mode-read")
+        self.page.select_option("#series", series)
+        self.page.set_checked("#follow", follow)
+        for way in (1, -1):
+            self.click(list(places)[::way])
+            if follow:
+                self.page.click("#trace")
+            if way == 1:
+                self.page.click("#second")
+
+    def save(self, path, button="#save"):
+        with self.page.expect_download(timeout=5000) as found:
+            self.page.click(button)
+        found.value.save_as(path / found.value.suggested_filename)
+        return path / found.value.suggested_filename
+
+    def text(self, query):
+        return self.page.text_content(query).strip()
+
+
+@pytest.fixture
+def opened(tab, first_run, tmp_path):
+    """Open the page with a print; it has no errors, and asks for nothing."""
+    tab.problems.clear()
+
+    def reader(panel, lines, circles=(), dpi=100, how="file", marks=(*MARKS, (8, 0))):
+        path = tmp_path / "print.jpg"
+        pixel = prints.scan(path, LIMITS[panel], lines, circles, dpi)
+        tab.resize(1440, 900)
+        tab.open("about:blank")
+        tab.open((first_run[0] / "figures/your_copy.html").as_uri())
+        tab.page.select_option("#panel", panel)
+        if how == "file":
+            tab.page.set_input_files("#file", path)
+        else:
+            tab.page.evaluate(GIVE, [how, list(path.read_bytes())])
+        tab.page.wait_for_selector(".opened #sheet")
+        tab.page.fill("#zoom", "3")
+        found = Reader(tab, pixel)
+        for mark in marks:
+            if mark not in MARKS:
+                tab.page.click("#mark-add")
+                tab.page.click("#marks tr:last-child .mark-x")
+                for key in (f"{mark[0]}", "Tab", f"{mark[1]}"):
+                    tab.press(key)
+            found.click([mark])
+        return found
+
+    yield reader
+    assert tab.problems == []
+
+
+def rms(errors):
+    return np.sqrt(np.mean(np.square(errors), axis=0))
+
+
+def saved(reader, series, folder):
+    """The file of a series, saved and dropped into a copy of its folder."""
+    assert reader.text("#refused") == ""
+    reader.page.click("#save")
+    assert "Who" in reader.text("#refused")
+    reader.page.fill("#who", "Ada Reader")
+    reader.page.fill("#from", "a made-up print")
+    source, name = series.split("/")
+    shutil.copytree(ROOT / "data" / source, folder / source)
+    path = reader.save(folder / source)
+    assert path.name == f"{name}.csv" and reader.text("#refused") == ""
+    return path
+
+
+def verdict(path, first_run):
+    """What a run says of a file that was dropped into a folder of data/."""
+    source, series = path.parent.name, f"{path.parent.name}/{path.stem}"
+    named = config()["comparisons"].items()
+    ((name, entry),) = [one for one in named if one[1].get("reference") == series]
+    figure = name.split("-")[0]
+    found = sources() | {source: reference_data.load(path.parent, schema("source"))}
+    references = figure_settings.references(config(), found, figure)
+    curves = first_run[0] / f"results/curves/{figure}.csv"
+    return compare(figure, curves, {name: entry}, references, config()["significance"], {})[0][
+        "verdict"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("dpi", "how", "off", "wanted"),
+    [(100, "drop", 0, "agrees"), (300, "file", 0, "agrees"), (100, "paste", 0.2, "FAILS")],
+)
+def test_circles_are_read_and_judged(dpi, how, off, wanted, opened, first_run, tmp_path):
+    y = lumped.rebound(X, 3.5, 1.5, 1.0).velocity
+    coarse = continuum.rebound(X[::8], 3.5, 1.5, tolerance=1e-3).velocity
+    bare = rigid.rebound(X, 3.5, restitution=1.0).velocity
+    circles = np.transpose([X[20:400:45], y[20:400:45] + off])
+    lines = [(X, y, "-"), (X[::8], coarse, "--"), (X, bare, ":")]
+    reader = opened("fig5", lines, circles, dpi, how)
+    reader.read(RUBBER, circles)
+    path = saved(reader, RUBBER, tmp_path)
+    error = pd.read_csv(path, comment="#").to_numpy() - circles
+    assert np.all(rms(error) <= np.multiply((8, 4), 0.3 / dpi))  # 0.3 % of the axes at 100 dpi
+    sigma = np.array(re.findall(r"# sigma_[xy]: (.*)", path.read_text()), float)
+    assert np.all((rms(error / sigma) > 0.4) & (rms(error / sigma) < 2))
+    assert verdict(path, first_run) == wanted
+
+
+@pytest.mark.parametrize(("wrong", "wanted"), [("", "agrees"), ("5 %", "FAILS"), ("25", "differs")])
+def test_a_line_is_followed_and_judged(wrong, wanted, opened, first_run, tmp_path):
+    """Curves of Fig. 6; that for e = 0.5 is right, too large, or has the error of Eq. 25."""
+    curves = {e: lumped.rebound(X, 3.5, 1.21, e).velocity for e in (0.0, 0.5, 1.0)}
+    line = np.transpose([X, curves[0.5] * (1.05 if wrong == "5 %" else 1.0)])
+    if wrong == "25":
+        table = tables.read(first_run[0] / "results/curves/fig6.csv")
+        own = tables.select(table, model="printed", e=0.5)
+        own = own[["incidence [mu v2(0)]", "velocity [mu v2(0)]"]].to_numpy()
+        line = np.concatenate([line[: np.searchsorted(X, own[0, 0])], own])
+    others = [(X, curves[e], "-") for e in (0.0, 1.0)]
+    reader = opened("fig6", [*others, (*line.T, "-")], dpi=300)
+    clicks = line[25:350:25]
+    reader.read(LOSSY, clicks, follow=True)
+    path = saved(reader, LOSSY, tmp_path)
+    read = pd.read_csv(path, comment="#").to_numpy()
+    assert np.abs(distances.curve_residuals(read.T, tuple(line.T), (8.0, 6.0))[0]).max() < 0.003
+    assert verdict(path, first_run) == wanted
+
+
+def test_marks_on_a_line_are_refused(opened):
+    reader = opened("fig5", [], marks=MARKS[:3])
+    assert "one line" in reader.text("#fit") and reader.page.locator("#lines > *").count() == 0
+    reader.page.click("#marks tr:nth-child(5) .mark-pick")
+    reader.click([MARKS[4]])
+    assert "4 marks" in reader.text("#fit") and reader.page.locator("#lines > *").count() == 4
+
+
+EXPORTS = {
+    "WebPlotDigitizer": "0.5, 0.1\n1.0, -0.2\n",
+    "with a header": "x, y\n0.5, 0.1\n1.0, -0.2\n",
+    "all data sets": "rubber,,lumped,\nX,Y,X,Y\n0.5,0.1,0,3\n1.0,-0.2,,\n",
+    "Engauge": "x,Curve1\n0.5,0.1\n1,-0.2\n",
+    "tabs": "X\tY\r\n0,5\t0,1\r\n1\t-0,2\r\n",
+    "semicolons": "x;y\n0,5;0,1\n1,0;\u22120,2\n",
+    "quotes": '\ufeff"x","y"\n"0.5","0.1"\n"1","-2e-1"\n',
+    "exchanged": "y,x\n0.1,0.5\n-0.2,1\n",
+}
+REFUSED = ["", "nothing", "1\n2\n", "x,y\n0,5,0,1\n1,5,-0,2\n", "0,5,0,1\n1,5,-0,2\n", "1,2\n3,b\n"]
+
+
+def test_exports_of_others_are_taken_or_refused(opened):
+    reader = opened("fig5", [])
+    page = reader.page
+    page.click("#others summary")
+    wanted = [reader.pixel(0.5, 0.1), reader.pixel(1.0, -0.2)]
+    place = "(one) => [+one.getAttribute('cx'), +one.getAttribute('cy')]"
+    for name, export in EXPORTS.items():
+        page.fill("#export", export)
+        if name == "exchanged":
+            page.click("#exchange")
+        page.click("#export-take")
+        taken = page.evaluate(f"[...document.querySelectorAll('#signs circle')].map({place})")
+        assert np.shape(taken) == (2, 2) and np.abs(np.subtract(taken, wanted)).max() < 1, name
+    for export in REFUSED:
+        page.fill("#export", export)
+        assert reader.text("#export-said").endswith("."), export
+        assert not page.is_visible("#export-take"), export
+
+
+def test_curves_are_hidden_marks_moved_and_the_picture_saved_on_a_phone_too(opened, tab, tmp_path):
+    reader = opened("fig5", [])
+    page, mark = reader.page, "#signs .chosen"
+    before = page.get_attribute(mark, "d")
+    page.keyboard.press("ArrowRight")
+    moved = [float(d[1:].split(",")[0]) for d in (before, page.get_attribute(mark, "d"))]
+    assert moved[1] - moved[0] == pytest.approx(0.1)
+    page.keyboard.press("Control+z")
+    assert page.get_attribute(mark, "d") == before
+    page.mouse.move(*reader.place(7, -1))
+    found = re.findall(r"(?:incidence|velocity) (\S+)", reader.text("#pointer"))
+    assert np.allclose([float(one.replace("\u2212", "-")) for one in found], (7, -1), atol=0.03)
+    page.hover("#hold")
+    for press, hidden in ((page.mouse.down, True), (page.mouse.up, False)):
+        press()
+        assert page.is_hidden("#lines > * >> nth=0") == hidden
+    with Image.open(reader.save(tmp_path, "#picture")) as picture:
+        assert picture.format == "PNG" and picture.width > 500
+    tab.resize(390, 900, mobile=True)
+    assert page.evaluate("document.scrollingElement.scrollWidth") <= 390
+    page.set_input_files("#file", {"name": "a.pdf", "mimeType": "application/pdf", "buffer": b"%"})
+    assert "PDF" in reader.text("#refused")
+
+
+def test_a_page_whose_distances_are_wrong_says_so(tab, first_run, tmp_path):
+    text = (first_run[0] / "figures/your_copy.html").read_text(encoding="utf-8")
+    for changed, wrong in ((text, 0), (re.sub(r'"near": \d', '"near": 7', text, count=1), 1)):
+        (tmp_path / "page.html").write_text(changed, encoding="utf-8")
+        tab.open((tmp_path / "page.html").as_uri())
+        said = tab.page.text_content("#refused")
+        assert ("Do not trust" in said and f" {wrong} of " in said) if wrong else said == ""

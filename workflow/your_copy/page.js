@@ -1,0 +1,514 @@
+"use strict";
+
+// What the reader has done stands in `state`, which undo takes back; all else is drawn from it.
+(() => {
+  const get = (id) => document.getElementById(id);
+  const [sheet, stage, picture] = ["sheet", "stage", "picture-of-copy"].map(get);
+  const FIELDS = ["who", "when", "from", "incidence"];
+  const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+  const name_of = (column) => column.replace(/ \[.*/, "").replaceAll("_", " ");
+
+  let state = null;
+  const past = []; // states before, as text
+  let kept = {}; // the last states of other panels
+  let dark = null; // darkness of the picture, once a line is followed
+  let imported = null; // columns of an export
+
+  const panel = () => DATA.panels[state.panel];
+  const placed = () => state.marks.filter((m) => m.u !== null && m.x !== null && m.y !== null);
+  const fitted = () => maps.fit(placed());
+  const reading = () => state.readings[state.second ? 1 : 0];
+  const size = () => Math.hypot(picture.naturalWidth, picture.naturalHeight);
+  const sigmas = () => readings.sigmas(fitted(), state.readings, state.widths, size(), chosen_series()?.line);
+  const chosen_series = () => panel().series.find(({ id }) => id === state.series);
+  const spans = ({ range }) => range.map(([low, high]) => high - low);
+
+  // A value on an axis, to a thousandth of it, with its unit.
+  function said(value, i) {
+    const column = [panel().x, panel().y][i];
+    const digits = Math.max(0, Math.ceil(3 - Math.log10(spans(panel())[i])));
+    return `${value.toFixed(digits).replace("-", "\u2212")} ${readings.unit_of(column).replace(/\bmu\b/, "µ")}`.trim();
+  }
+
+  const along = ({ x, y }) => `${said(x, 0)} along x, ${said(y, 1)} along y.`;
+
+  const NOTHING_READ = { readings: [[], []], widths: [0, 0], clicks: [], second: false, chosen: null, by: "" };
+
+  function fresh(name) {
+    const { marks, series } = DATA.panels[name];
+    return {
+      panel: name, mode: "marks", marks: marks.map(([x, y]) => ({ x, y, u: null, v: null })), next: 0, off: [], cursor: null,
+      series: series[0]?.id ?? "", ...structuredClone(NOTHING_READ),
+    };
+  }
+
+  // Change the state, so that it can be undone.
+  function change(action) {
+    past.push(JSON.stringify(state));
+    action();
+    get("saved").textContent = "";
+    draw();
+  }
+
+  function undo() {
+    if (past.length) state = JSON.parse(past.pop());
+    get("follow").checked = chosen_series()?.line ?? false;
+    show_panel();
+  }
+
+  // Curves of the panel as they are drawn: forces of an unknown scale are multiplied.
+  function shown() {
+    const factor = panel().scale ? typed(get("scale").value) || 1 : 1;
+    return panel().curves.map((curve, i) => ({ ...curve, i, y: curve.y.map((y) => y * factor) }))
+      .filter(({ i }) => !state.off.includes(i));
+  }
+
+  // Distance of a point from a curve if both axes have these scales, and how far it lies above in its unit.
+  function distance({ x, y }, [px, py], [sx, sy]) {
+    const near = trace.beside([px / sx, py / sy], x.map((value, i) => [value / sx, y[i] / sy]));
+    const order = x.map((value, i) => [value, y[i]]).sort((a, b) => a[0] - b[0]);
+    const after = order.findIndex(([value]) => value >= px);
+    const high = order.at(after);
+    const low = after < 1 ? high : order[after - 1];
+    const share = high[0] > low[0] ? (px - low[0]) / (high[0] - low[0]) : 0;
+    return { near, above: py - low[1] - share * (high[1] - low[1]) };
+  }
+
+  // --- what is seen ---
+
+  function draw() {
+    const map = fitted();
+    const closed = !picture.naturalWidth;
+    draw_marks(map);
+    draw_curves(map);
+    draw_signs();
+    draw_loupe();
+    const found = sigmas();
+    get("points").textContent =
+      `First reading: ${state.readings[0].length} points. Second: ${state.readings[1].length}.`;
+    get("sigmas").textContent = found.refused ?? `Uncertainty (sigma): ${along(found)}`;
+    for (const id of ["trace", "save", "export-take"]) get(id).disabled = closed || map.refused || !state.series;
+    get("second").disabled = !state.readings[0].length;
+    get("second").textContent = state.second ? "Back to the first reading" : "Read a second time";
+    get("with-incidence").hidden = !chosen_series()?.open.includes("incidence");
+    get("picture").disabled = closed;
+    get("undo").disabled = !past.length;
+    get("trace").hidden = !get("follow").checked;
+    get(`mode-${state.mode}`).checked = true;
+    get("task").textContent = closed ? "" : task(map);
+  }
+
+  // What a click does now.
+  function task(map) {
+    if (state.mode === "marks") {
+      const { x = null, y = null } = state.marks[state.next] ?? {};
+      const where = x === null || y === null ? "a further mark" : `${name_of(panel().x)} ${x}, ${name_of(panel().y)} ${y}`;
+      return `Click where ${where} stands.`;
+    }
+    if (map.refused) return map.refused;
+    if (state.mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
+    const how = get("follow").checked ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
+    return `${state.second ? "Second" : "First"} reading of: ${chosen_series().name}. ${how}`;
+  }
+
+  function draw_marks(map) {
+    const [body] = get("marks").tBodies;
+    const field = (axis, i) => `<td><input class="mark-${axis}" data-mark="${i}" inputmode="decimal"
+      aria-label="${axis} of mark ${i + 1}"></td>`;
+    // Rows are kept while their number is the same: who types would lose the field.
+    if (body.rows.length !== state.marks.length) {
+      body.innerHTML = state.marks.map((_, i) => `<tr><td><button type="button" class="mark-pick" data-mark="${i}"
+        aria-label="Set mark ${i + 1} with the next click">${i + 1}</button></td>${field("x", i)}${field("y", i)}<td></td>
+        <td></td><td><button type="button" class="mark-drop" data-mark="${i}" aria-label="Remove mark ${i + 1}">×</button></td>
+        </tr>`).join("");
+    }
+    state.marks.forEach((mark, i) => {
+      const [, x, y, place, beside] = body.rows[i].cells;
+      const off = map.off?.[placed().indexOf(mark)];
+      body.rows[i].className = i === state.next && state.mode === "marks" ? "next" : "";
+      for (const [cell, value] of [[x, mark.x], [y, mark.y]]) {
+        if (document.activeElement !== cell.firstChild) cell.firstChild.value = value ?? "";
+      }
+      place.textContent = mark.u === null ? "not set" : `${mark.u.toFixed(1)}, ${mark.v.toFixed(1)}`;
+      beside.textContent = off ? Math.hypot(off.u, off.v).toFixed(2) : "";
+    });
+    get("fit").className = map.refused && placed().length > 2 ? "bad" : "";
+    if (map.refused) return get("fit").replaceChildren(map.refused);
+    const quality = map.of_freedom === null ? ". A further mark would show how good it is."
+      : `; residual ${map.residual.pixels.toFixed(2)} px: ${along(map.residual)}`;
+    return get("fit").replaceChildren(
+      `${map.kind === "affine" ? "Affine" : "Perspective"} map from ${placed().length} marks${quality}`);
+  }
+
+  const style_of = ({ line }, i) => `curve c${i % 6} ${line}`;
+
+  function draw_curves(map) {
+    const { curves } = panel();
+    const list = get("curves");
+    if (list.dataset.panel !== state.panel) {
+      list.dataset.panel = state.panel;
+      list.innerHTML = curves.map((curve, i) => `<label><input type="checkbox" data-curve="${i}"> <svg viewBox="0 0 34 8"
+        aria-hidden="true"><path class="${style_of(curve, i)}" d="M0,4H34"/></svg> ${curve.name}</label>`).join("");
+    }
+    list.querySelectorAll("input").forEach((box, i) => { box.checked = !state.off.includes(i); });
+    get("lines").innerHTML = map.refused ? "" : shown().map((curve) => {
+      const places = curve.x.map((x, k) => map.to_pixels([x, curve.y[k]]).map((one) => one.toFixed(2)).join(","));
+      return `<polyline class="${style_of(curve, curve.i)}" points="${places.join(" ")}"/>`;
+    }).join("");
+  }
+
+  const zoom = () => sheet.getBoundingClientRect().width / picture.naturalWidth || 1;
+
+  function draw_signs() {
+    const far = 6 / zoom();
+    const cross = ([u, v], style) =>
+      `<path class="sign ${style}" d="M${u - far},${v}H${u + far}M${u},${v - far}V${v + far}"/>`;
+    const is_chosen = (list, i) => (state.chosen?.list === list && state.chosen.i === i ? "chosen" : "");
+    get("signs").innerHTML = [
+      ...state.marks.map(({ u, v }, i) => (u === null ? "" : cross([u, v], `mark ${is_chosen("marks", i)}`))),
+      ...reading().map(([u, v], i) =>
+        `<circle class="sign point ${is_chosen("points", i)}" cx="${u}" cy="${v}" r="${far}"/>`),
+      ...state.clicks.map((place) => cross(place, "click")),
+      ...(state.cursor ? [cross(state.cursor, "cursor")] : []),
+    ].join("");
+  }
+
+  function chosen_place() {
+    const { list, i } = state.chosen ?? {};
+    const mark = list === "marks" ? state.marks[i] : null;
+    if (mark) return mark.u === null ? null : [mark.u, mark.v];
+    return list === "points" ? reading()[i] ?? null : null;
+  }
+
+  function draw_loupe(at = chosen_place() ?? state.cursor) {
+    get("close-up").hidden = !at;
+    if (at) get("loupe").setAttribute("viewBox", `${at[0] - 10} ${at[1] - 10} 20 20`);
+  }
+
+  // Values of the axes at a place, and how far it is from the nearest curve.
+  function tell(place) {
+    const map = fitted();
+    if (map.refused) return;
+    const point = map.to_axes(place);
+    const all = shown().map((curve) => ({ curve, ...distance(curve, point, spans(panel())) }));
+    const least = all.reduce((best, one) => (one.near < best.near ? one : best), { near: Infinity });
+    const beside = least.curve
+      ? `; ${said(Math.abs(least.above), 1)} ${least.above < 0 ? "below" : "above"} “${least.curve.name}”` : "";
+    const [x, y] = [panel().x, panel().y].map((column, i) => `${name_of(column)} ${said(point[i], i)}`);
+    get("pointer").textContent = `${x}, ${y}${beside}`;
+  }
+
+  // --- actions on the picture ---
+
+  function place_of({ clientX, clientY }) {
+    const { left, top } = sheet.getBoundingClientRect();
+    return [(clientX - left) / zoom(), (clientY - top) / zoom()];
+  }
+
+  // The first mark that is not set, or a further one.
+  function next_mark() {
+    const unset = state.marks.findIndex((mark) => mark.u === null);
+    return unset < 0 ? state.marks.length : unset;
+  }
+
+  function put([u, v]) {
+    if (state.mode === "marks") {
+      change(() => {
+        if (state.next >= state.marks.length) state.marks.push({ x: null, y: null });
+        Object.assign(state.marks[state.next], { u, v });
+        state.chosen = { list: "marks", i: state.next };
+        state.next = next_mark();
+        if (state.next === state.marks.length) state.mode = "look";
+      });
+    } else if (state.mode === "read" && state.series && !fitted().refused) {
+      change(() => {
+        if (get("follow").checked) return void state.clicks.push([u, v]);
+        // A click on a point that was read chooses it.
+        const there = reading().findIndex(([a, b]) => Math.hypot(a - u, b - v) < 6 / zoom());
+        state.chosen = { list: "points", i: there < 0 ? reading().push([u, v]) - 1 : there };
+      });
+    }
+    tell([u, v]);
+  }
+
+  // Move the chosen mark or point, or the cursor of who has no mouse.
+  function nudge([du, dv]) {
+    const [u, v] = chosen_place() ?? state.cursor ?? [picture.naturalWidth / 2, picture.naturalHeight / 2];
+    const place = [u + du, v + dv];
+    change(() => {
+      if (!chosen_place()) state.cursor = place;
+      else if (state.chosen.list === "points") reading()[state.chosen.i] = place;
+      else Object.assign(state.marks[state.chosen.i], { u: place[0], v: place[1] });
+    });
+    tell(place);
+  }
+
+  function remove_chosen() {
+    change(() => {
+      if (state.chosen?.list === "points") reading().splice(state.chosen.i, 1);
+      if (state.chosen?.list === "marks") Object.assign(state.marks[state.chosen.i], { u: null, v: null });
+      Object.assign(state, { chosen: null, next: next_mark() });
+    });
+  }
+
+  const writes = (target) => target.matches("input:not([type=checkbox], [type=radio], [type=range], [type=file]), textarea");
+  const typed = (text) => (text.trim() === "" ? NaN : Number(text.replace(/[\u2212\u2013]/, "-").replace(",", ".")));
+
+  function press(event) {
+    if ((event.ctrlKey || event.metaKey) && event.key === "z" && !writes(event.target)) undo();
+    else if (!picture.naturalWidth || event.target.matches("input, select, textarea")) return;
+    else if (event.key in ARROWS) {
+      const far = chosen_place() ? 1 : 10; // with Shift; without anything chosen the cursor goes
+      nudge(ARROWS[event.key].map((one) => one * (event.shiftKey ? far : 0.1)));
+    } else if (event.target !== sheet) return;
+    else if (event.key === "Enter") put(state.cursor ??= [picture.naturalWidth / 2, picture.naturalHeight / 2]);
+    else if (event.key === "Escape") change(() => { state.chosen = null; });
+    else if (["Delete", "Backspace"].includes(event.key)) remove_chosen();
+    else return;
+    event.preventDefault();
+  }
+
+  // --- points ---
+
+  function follow_line() {
+    if (state.clicks.length < 2) {
+      return refuse("Click the beginning and the end of the line first, and between where it bends.");
+    }
+    dark ??= trace.darkness(picture);
+    const { points, width, lost } = trace.follow(dark, state.clicks);
+    if (lost) {
+      const place = lost.map((one) => one.toFixed(0)).join(", ");
+      return refuse(`The line is lost at pixel ${place}. Set the clicks nearer to its middle, or more of them.`);
+    }
+    refuse("");
+    return take(points, width, "followed along the line");
+  }
+
+  const take = (points, width, by) => change(() => {
+    state.readings[state.second ? 1 : 0] = points;
+    state.widths[state.second ? 1 : 0] = width;
+    Object.assign(state, { clicks: [], chosen: null, by });
+  });
+
+  function read_export(text) {
+    imported = exports_of_others.read(text);
+    const { columns = [], refused, said: words } = imported;
+    get("others").open = true;
+    get("export-said").textContent = refused ?? words;
+    get("export-said").className = refused ? "bad" : "";
+    get("export-columns").hidden = Boolean(refused);
+    for (const [i, id] of ["export-x", "export-y"].entries()) {
+      get(id).replaceChildren(...columns.map(({ name }, k) => new Option(name, k, k === i, k === i)));
+    }
+  }
+
+  function take_export() {
+    const [x, y] = ["export-x", "export-y"].map((id) => imported.columns[get(id).value]);
+    take(exports_of_others.points(x, y).map(fitted().to_pixels), 0, "exported from another program");
+    set_mode("read");
+  }
+
+  // --- files ---
+
+  const refuse = (text) => { get("refused").textContent = text; };
+
+  async function open_file(file) {
+    if (!file) return;
+    if (/\.pdf$/i.test(file.name)) refuse("This page cannot draw a PDF. Paste a screenshot of the figure.");
+    else if (file.type.startsWith("image/")) open_picture(file);
+    else read_export(get("export").value = await file.text());
+  }
+
+  function open_picture(blob) {
+    const [reader, trial] = [new FileReader(), new Image()]; // else what cannot be shown would replace the picture
+    trial.onload = () => { picture.src = trial.src; };
+    picture.onload = () => {
+      const { naturalWidth: width, naturalHeight: height, src: href } = picture;
+      sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
+      for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
+      document.body.classList.add("opened");
+      // Marks and points are places in the picture before.
+      state = { ...fresh(state.panel), series: state.series, off: state.off };
+      past.length = 0;
+      kept = {};
+      dark = null;
+      refuse("");
+      set_zoom();
+    };
+    trial.onerror = () => refuse("The browser cannot show this file. Paste a screenshot of the figure.");
+    reader.onload = () => { trial.src = reader.result; };
+    reader.readAsDataURL(blob);
+  }
+
+  // At the smallest size the whole picture is seen; what is chosen, or lies in the middle, stays there.
+  function set_zoom() {
+    if (!picture.naturalWidth) return;
+    const { naturalWidth: width, naturalHeight: height } = picture;
+    const middle = chosen_place() ??
+      [stage.scrollLeft + stage.clientWidth / 2, stage.scrollTop + stage.clientHeight / 2].map((one) => one / zoom());
+    stage.style.height = sheet.style.height = ""; // and no bars to scroll with
+    sheet.style.width = "0";
+    const scale = get("zoom").value * Math.min(stage.clientWidth / width, (stage.clientHeight - 4) / height);
+    Object.assign(sheet.style, { width: `${scale * width}px`, height: `${scale * height}px` });
+    stage.style.height = `${Math.min(stage.clientHeight, scale * height) + 2}px`;
+    stage.scrollTo(middle[0] * scale - stage.clientWidth / 2, middle[1] * scale - stage.clientHeight / 2);
+    draw();
+  }
+
+  function save() {
+    const said_of = { series: chosen_series(), ...Object.fromEntries(FIELDS.map((id) => [id, get(id).value])) };
+    const found = sigmas();
+    const problem = found.refused ?? (readings.missing(said_of) || readings.unfit(said_of.series, fitted(), found, state.readings[0]));
+    refuse(problem);
+    get("saved").textContent = "";
+    if (problem) return;
+    const how = `planarimpact ${DATA.version}, your_copy.html; picture of ${picture.naturalWidth} x ` +
+      `${picture.naturalHeight} px${state.by ? `; ${state.by}` : ""}`;
+    const text = readings.csv(said_of, fitted(), placed(), found, state.readings[0], how);
+    const [source, name] = state.series.split("/");
+    files.save(`${name}.csv`, new Blob([text], { type: "text/csv" }));
+    get("saved").textContent = `Put ${name}.csv into the folder data/${source}/ of the project, and run: ` +
+      `snakemake --cores 2 ${panel().figure}`;
+  }
+
+  // Picture and curves as they lie, with the names of the curves, for one's own use.
+  async function save_picture() {
+    const names = [...get("curves").querySelectorAll("label")].filter((label) => label.firstChild.checked);
+    const below = names.map((label) => [label.querySelector("path"), label.textContent.trim()]);
+    files.save(`${state.panel}_overlay.png`, await files.picture(sheet, [panel().title], below));
+  }
+
+  // --- controls ---
+
+  // What a click does: it sets marks, only looks, or reads points.
+  function set_mode(mode) {
+    const other = { marks: "points", read: "marks" }[mode];
+    if (state.chosen?.list === other) state.chosen = null;
+    Object.assign(state, { mode, next: next_mark() });
+    draw();
+  }
+
+  function show_panel() {
+    const { series, scale } = panel();
+    get("panel").value = state.panel;
+    get("series").replaceChildren(...series.map(({ id, name }) => new Option(name, id, false, id === state.series)));
+    get("no-series").hidden = series.length > 0;
+    get("with-scale").hidden = !scale;
+    draw();
+  }
+
+  function choose_series(id) {
+    change(() => Object.assign(state, structuredClone(NOTHING_READ), { series: id }));
+    get("follow").checked = chosen_series()?.line ?? false;
+    draw();
+  }
+
+  const on = (id, event, action) => get(id).addEventListener(event, (happened) => action(happened.target, happened));
+
+  function listen() {
+    on("file", "change", ({ files: [file] }) => open_file(file));
+    on("panel", "change", ({ value }) => {
+      kept[state.panel] = state;
+      change(() => { state = kept[value] ?? fresh(value); });
+      get("follow").checked = chosen_series()?.line ?? false;
+      show_panel();
+    });
+    on("series", "change", ({ value }) => { choose_series(value); set_mode("read"); });
+    on("sheet", "click", (_, event) => { sheet.focus({ preventScroll: true }); state.cursor = null; put(place_of(event)); });
+    on("sheet", "pointermove", (_, event) => {
+      if (event.pointerType !== "mouse") return;
+      tell(place_of(event));
+      draw_loupe(place_of(event));
+    });
+    on("sheet", "pointerleave", () => draw_loupe());
+    for (const name of ["marks", "look", "read"]) on(`mode-${name}`, "change", () => set_mode(name));
+    on("marks", "click", ({ className, dataset }) => {
+      const i = Number(dataset.mark);
+      if (className === "mark-pick") {
+        change(() => { Object.assign(state, { next: i, mode: "marks", chosen: { list: "marks", i } }); });
+        set_zoom();
+      }
+      if (className === "mark-drop") {
+        change(() => {
+          state.marks.splice(i, 1);
+          Object.assign(state, { next: next_mark(), chosen: null });
+        });
+        get("mark-add").focus();
+      }
+    });
+    on("marks", "change", ({ className, value, dataset }) => {
+      const number = typed(value);
+      refuse(Number.isFinite(number) ? "" : `“${value}” is no number such as -0.5: the old one is kept.`);
+      if (Number.isFinite(number)) change(() => { state.marks[dataset.mark][className.at(-1)] = number; });
+      draw();
+    });
+    on("mark-add", "click", () => change(() => {
+      state.next = state.marks.push({ x: null, y: null, u: null, v: null }) - 1;
+      state.mode = "marks";
+    }));
+    on("curves", "change", ({ checked, dataset }) => change(() => {
+      const i = Number(dataset.curve);
+      state.off = checked ? state.off.filter((one) => one !== i) : [...state.off, i];
+    }));
+    on("scale", "input", draw);
+    on("follow", "change", () => set_mode("read"));
+    on("opacity", "input", ({ value }) => sheet.style.setProperty("--opacity", value));
+    on("zoom", "input", set_zoom);
+    on("second", "click", () => {
+      change(() => Object.assign(state, { second: !state.second, clicks: [], chosen: null }));
+      set_mode("read");
+    });
+    on("trace", "click", follow_line);
+    on("clear", "click", () => change(() => {
+      const { second, readings: [first], widths: [width] } = state;
+      Object.assign(state, structuredClone(NOTHING_READ), second ? { second, readings: [first, []], widths: [width, 0] } : {});
+    }));
+    on("undo", "click", undo);
+    for (const arrow of Object.keys(ARROWS)) on(arrow, "click", () => nudge(ARROWS[arrow].map((one) => 0.1 * one)));
+    on("export", "input", ({ value }) => read_export(value));
+    on("exchange", "click", () => {
+      const [x, y] = ["export-x", "export-y"].map(get);
+      [x.value, y.value] = [y.value, x.value];
+    });
+    on("export-take", "click", take_export);
+    on("save", "click", save);
+    on("picture", "click", save_picture);
+    for (const event of ["pointerdown", "pointerup", "pointerleave", "blur"]) {
+      on("hold", event, () => sheet.classList.toggle("print-only", event === "pointerdown"));
+    }
+    for (const event of ["keydown", "keyup"]) {
+      document.addEventListener(event, ({ key, target }) => {
+        const held = key.toLowerCase() === "h" || (target.id === "hold" && [" ", "Enter"].includes(key));
+        if (held && !writes(target)) sheet.classList.toggle("print-only", event === "keydown");
+      });
+    }
+    window.addEventListener("blur", () => sheet.classList.remove("print-only"));
+    document.addEventListener("keydown", press);
+    document.addEventListener("dragover", (event) => event.preventDefault());
+    document.addEventListener("drop", (event) => { event.preventDefault(); open_file(event.dataTransfer.files[0]); });
+    document.addEventListener("paste", ({ clipboardData, target }) => {
+      if (writes(target)) return;
+      const image = [...clipboardData.items].find(({ type }) => type.startsWith("image/"));
+      if (image) open_picture(image.getAsFile());
+      else read_export(get("export").value = clipboardData.getData("text"));
+    });
+    window.addEventListener("resize", set_zoom);
+  }
+
+  // Distances of this page against those of the package.
+  function check() {
+    const wrong = Object.values(DATA.panels).flatMap((one) => one.check.filter(({ curve, point, near, above }) => {
+      const found = distance(one.curves[curve], point, spans(one));
+      return !(Math.abs(found.near - near) < 1e-6 && Math.abs(found.above - above) < 1e-6 * spans(one)[1]);
+    }));
+    if (wrong.length) refuse(`Do not trust this page: ${wrong.length} of its distances differ from those of the package.`);
+  }
+
+  const asked = location.hash.slice(1); // a figure, of which the first panel is shown
+  state = fresh(Object.keys(DATA.panels).find((name) => asked && name.startsWith(asked)) ?? "fig5");
+  get("when").value = new Date().toISOString().slice(0, 10);
+  get("follow").checked = chosen_series()?.line ?? false;
+  listen();
+  show_panel();
+  check();
+})();
