@@ -49,33 +49,40 @@ const maps = (() => {
     return adjugate.slice(0, 8).map((one) => one / adjugate[8]);
   }
 
-  // Gauss and Newton, from the middle of the picture; an affine map takes one step.
+  const dot = (a, b) => a.reduce((sum, one, i) => sum + one * b[i], 0);
+
+  // How both coordinates of an image change with each unknown.
+  function slopes(found, [x, y]) {
+    const [u, v] = image(found, [x, y]);
+    const w = 1 / ((found[6] ?? 0) * x + (found[7] ?? 0) * y + 1);
+    return [[x * w, y * w, w, 0, 0, 0, -u * x * w, -u * y * w], [0, 0, 0, x * w, y * w, w, -v * x * w, -v * y * w]]
+      .map((row) => row.slice(0, found.length));
+  }
+
+  // Gauss and Newton, from the middle of the picture; an affine map takes one step. With the matrix of the
+  // last step, whose inverse is the covariance of the unknowns.
   function unknowns(kind, from, to) {
-    let found = [1, 0, 0, 0, 1, 0, 0, 0].slice(0, UNKNOWNS[kind]);
+    let [found, matrix] = [[1, 0, 0, 0, 1, 0, 0, 0].slice(0, UNKNOWNS[kind]), null];
     for (let step = 0; step < (kind === "affine" ? 1 : 12); step++) {
-      const rows = from.flatMap(([x, y], i) => {
-        const [u, v] = image(found, [x, y]);
-        const w = 1 / ((found[6] ?? 0) * x + (found[7] ?? 0) * y + 1);
-        return [[x * w, y * w, w, 0, 0, 0, -u * x * w, -u * y * w, to[i][0] - u],
-          [0, 0, 0, x * w, y * w, w, -v * x * w, -v * y * w, to[i][1] - v]];
-      });
-      const n = found.length;
-      const product = (i, k) => rows.reduce((sum, row) => sum + row[i] * row[k], 0);
-      const places = Array.from({ length: n }, (_, i) => i);
-      const change = solve(places.map((i) => places.map((k) => product(i, k))), places.map((i) => product(i, 8)));
+      const rows = from.flatMap((point) => slopes(found, point));
+      const off = from.flatMap((point, i) => image(found, point).map((one, k) => to[i][k] - one));
+      const columns = found.map((_, i) => rows.map((row) => row[i]));
+      matrix = columns.map((one) => columns.map((other) => dot(one, other)));
+      const change = solve(matrix, columns.map((one) => dot(one, off)));
       if (!change) return null;
       found = found.map((one, i) => one + change[i]);
     }
-    return found.every(Number.isFinite) ? found : null;
+    return found.every(Number.isFinite) ? { found, matrix } : null;
   }
 
   // The map for marks {x, y, u, v}: values on the axes, and pixels.
   function of_kind(kind, marks, values, pixels) {
     const scaled = ({ middle, size }, [a, b]) => [(a - middle[0]) / size[0], (b - middle[1]) / size[1]];
     const back = ({ middle, size }, [a, b]) => [a * size[0] + middle[0], b * size[1] + middle[1]];
-    const found = unknowns(kind, marks.map((m) => scaled(values, [m.x, m.y])),
+    const solved = unknowns(kind, marks.map((m) => scaled(values, [m.x, m.y])),
       marks.map((m) => scaled(pixels, [m.u, m.v])));
-    if (!found) return null;
+    if (!solved) return null;
+    const { found, matrix } = solved;
     const reverse = inverse(found);
     const to_pixels = (point) => back(pixels, image(found, scaled(values, point)));
     const to_axes = (point) => back(values, image(reverse, scaled(pixels, point)));
@@ -87,8 +94,9 @@ const maps = (() => {
     const of_freedom = freedom ? Math.sqrt(off.reduce((sum, o) => sum + o.u ** 2 + o.v ** 2, 0) / freedom) : null;
     const residual = { pixels: rms(off.map((o) => Math.hypot(o.u, o.v))), x: rms(off.map((o) => o.x)),
       y: rms(off.map((o) => o.y)) };
-    // By how much the marks leave a point uncertain, in pixels along each direction.
-    const sigma = (of_freedom ?? 0) * Math.sqrt(UNKNOWNS[kind] / (2 * marks.length));
+    // By how much the marks leave a place uncertain, in pixels along each direction.
+    const sigma = (place) => (of_freedom ?? 0) * Math.sqrt(mean(
+      slopes(found, scaled(values, to_axes(place))).map((row) => dot(row, solve(matrix, row)))));
     // Units of the axes for a pixel.
     const scale = (point) => {
       const [right, left] = [1, -1].map((step) => to_axes([point[0] + step / 2, point[1]]));

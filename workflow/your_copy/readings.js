@@ -39,13 +39,14 @@ const readings = (() => {
     const scales = first.map(map.scale);
     const beside = maps.rms(second.map((place) => trace.beside(place, first)));
     if (`${first}` === `${second}`) return { refused: "Both readings are the same. Read the points again, on their own." };
+    const of_marks = maps.rms(first.map(map.sigma));
     const [x, y] = [0, 1].map((i) => {
       const pixel = maps.rms(scales.map((scale) => scale[i]));
       const twice = line ? pixel * beside : maps.rms(pairs.map(([a, b]) => map.to_axes(a)[i] - map.to_axes(b)[i]));
-      return Math.hypot(twice / Math.SQRT2, pixel * map.sigma, pixel * half);
+      return Math.hypot(twice / Math.SQRT2, pixel * of_marks, pixel * half);
     });
     const origin = "two readings, root mean square of their difference over the square root of 2" +
-      `${half ? "; half the width of the line" : ""}${map.sigma ? "; residual of the marks" : ""}`;
+      `${half ? "; half the width of the line" : ""}${of_marks ? "; residual of the marks" : ""}`;
     return { x, y, origin, ...(line ? {} : { values: pairs.length }) };
   }
 
