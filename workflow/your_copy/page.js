@@ -38,7 +38,7 @@
     const { marks, series } = DATA.panels[name];
     return {
       panel: name, mode: "marks", marks: marks.map(([x, y]) => ({ x, y, u: null, v: null })), next: 0, off: [], cursor: null,
-      series: series[0]?.id ?? "", ...structuredClone(NOTHING_READ),
+      series: series[0]?.id ?? "", follow: series[0]?.line ?? false, ...structuredClone(NOTHING_READ),
     };
   }
 
@@ -52,7 +52,6 @@
 
   function undo() {
     if (past.length) state = JSON.parse(past.pop());
-    get("follow").checked = chosen_series()?.line ?? false;
     show_panel();
   }
 
@@ -63,15 +62,18 @@
       .filter(({ i }) => !state.off.includes(i));
   }
 
-  // Distance of a point from a curve if both axes have these scales, and how far it lies above in its unit.
-  function distance({ x, y }, [px, py], [sx, sy]) {
-    const near = trace.beside([px / sx, py / sy], x.map((value, i) => [value / sx, y[i] / sy]));
+  // Distance of a point from a curve if both axes have these scales.
+  const distance = ({ x, y }, [px, py], [sx, sy]) =>
+    trace.beside([px / sx, py / sy], x.map((value, i) => [value / sx, y[i] / sy]));
+
+  // How far a point lies above a curve, in the unit of its axis.
+  function height({ x, y }, [px, py]) {
     const order = x.map((value, i) => [value, y[i]]).sort((a, b) => a[0] - b[0]);
     const after = order.findIndex(([value]) => value >= px);
     const high = order.at(after);
     const low = after < 1 ? high : order[after - 1];
     const share = high[0] > low[0] ? (px - low[0]) / (high[0] - low[0]) : 0;
-    return { near, above: py - low[1] - share * (high[1] - low[1]) };
+    return py - low[1] - share * (high[1] - low[1]);
   }
 
   // --- what is seen ---
@@ -93,7 +95,8 @@
     get("with-incidence").hidden = !chosen_series()?.open.includes("incidence");
     get("picture").disabled = closed;
     get("undo").disabled = !past.length;
-    get("trace").hidden = !get("follow").checked;
+    get("follow").checked = state.follow;
+    get("trace").hidden = !state.follow;
     get(`mode-${state.mode}`).checked = true;
     get("task").textContent = closed ? "" : task(map);
   }
@@ -107,7 +110,7 @@
     }
     if (map.refused) return map.refused;
     if (state.mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
-    const how = get("follow").checked ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
+    const how = state.follow ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
     return `${state.second ? "Second" : "First"} reading of: ${chosen_series().name}. ${how}`;
   }
 
@@ -190,10 +193,10 @@
     const map = fitted();
     if (map.refused) return;
     const point = map.to_axes(place);
-    const all = shown().map((curve) => ({ curve, ...distance(curve, point, spans(panel())) }));
-    const least = all.reduce((best, one) => (one.near < best.near ? one : best), { near: Infinity });
-    const beside = least.curve
-      ? `; ${said(Math.abs(least.above), 1)} ${least.above < 0 ? "below" : "above"} “${least.curve.name}”` : "";
+    const all = shown().map((curve) => ({ curve, near: distance(curve, point, spans(panel())) }));
+    const { curve } = all.reduce((best, one) => (one.near < best.near ? one : best), { near: Infinity });
+    const above = curve ? height(curve, point) : 0;
+    const beside = curve ? `; ${said(Math.abs(above), 1)} ${above < 0 ? "below" : "above"} “${curve.name}”` : "";
     const [x, y] = [panel().x, panel().y].map((column, i) => `${name_of(column)} ${said(point[i], i)}`);
     get("pointer").textContent = `${x}, ${y}${beside}`;
   }
@@ -222,7 +225,7 @@
       });
     } else if (state.mode === "read" && state.series && !fitted().refused) {
       change(() => {
-        if (get("follow").checked) return void state.clicks.push([u, v]);
+        if (state.follow) return void state.clicks.push([u, v]);
         // A click on a point that was read chooses it.
         const there = reading().findIndex(([a, b]) => Math.hypot(a - u, b - v) < 6 / zoom());
         state.chosen = { list: "points", i: there < 0 ? reading().push([u, v]) - 1 : there };
@@ -328,7 +331,8 @@
       for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
       document.body.classList.add("opened");
       // Marks and points are places in the picture before.
-      state = { ...fresh(state.panel), series: state.series, off: state.off };
+      const { panel: name, series, follow, off } = state;
+      state = { ...fresh(name), series, follow, off };
       past.length = 0;
       kept = {};
       dark = null;
@@ -398,9 +402,8 @@
   }
 
   function choose_series(id) {
-    change(() => Object.assign(state, structuredClone(NOTHING_READ), { series: id }));
-    get("follow").checked = chosen_series()?.line ?? false;
-    draw();
+    const { line } = panel().series.find((one) => one.id === id);
+    change(() => Object.assign(state, structuredClone(NOTHING_READ), { series: id, follow: line }));
   }
 
   const on = (id, event, action) => get(id).addEventListener(event, (happened) => action(happened.target, happened));
@@ -410,7 +413,6 @@
     on("panel", "change", ({ value }) => {
       kept[state.panel] = state;
       change(() => { state = kept[value] ?? fresh(value); });
-      get("follow").checked = chosen_series()?.line ?? false;
       show_panel();
     });
     on("series", "change", ({ value }) => { choose_series(value); set_mode("read"); });
@@ -451,7 +453,7 @@
       state.off = checked ? state.off.filter((one) => one !== i) : [...state.off, i];
     }));
     on("scale", "input", draw);
-    on("follow", "change", () => set_mode("read"));
+    on("follow", "change", ({ checked }) => { change(() => { state.follow = checked; }); set_mode("read"); });
     on("opacity", "input", ({ value }) => sheet.style.setProperty("--opacity", value));
     on("zoom", "input", set_zoom);
     on("second", "click", () => {
@@ -498,8 +500,9 @@
   // Distances of this page against those of the package.
   function check() {
     const wrong = Object.values(DATA.panels).flatMap((one) => one.check.filter(({ curve, point, near, above }) => {
-      const found = distance(one.curves[curve], point, spans(one));
-      return !(Math.abs(found.near - near) < 1e-6 && Math.abs(found.above - above) < 1e-6 * spans(one)[1]);
+      const own = one.curves[curve];
+      return !(Math.abs(distance(own, point, spans(one)) - near) < 1e-6 &&
+        Math.abs(height(own, point) - above) < 1e-6 * spans(one)[1]);
     }));
     if (wrong.length) refuse(`Do not trust this page: ${wrong.length} of its distances differ from those of the package.`);
   }
@@ -507,7 +510,6 @@
   const asked = location.hash.slice(1); // a figure, of which the first panel is shown
   state = fresh(Object.keys(DATA.panels).find((name) => asked && name.startsWith(asked)) ?? "fig5");
   get("when").value = new Date().toISOString().slice(0, 10);
-  get("follow").checked = chosen_series()?.line ?? false;
   listen();
   show_panel();
   check();

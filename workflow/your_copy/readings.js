@@ -3,9 +3,8 @@
 // Two readings of the same points: how uncertain they are, and the file for the run. Places are in pixels.
 const readings = (() => {
   const SAME_POINT = 0.03; // share of the picture in which two readings of one point lie
-  // What the run refuses, too: see reference_data/reading.py.
-  const PLACEHOLDER = /^(<.*>|\W*|x+|(your|todo|tbd)\b.*|(the )?name|who|when|from|how|none|n\/a|unknown)$/i;
-  const [LARGEST_SIGMA, OUTSIDE] = [0.01, 3]; // share of the range of an axis; sigmas
+  // What the run refuses, too. Letters are those of all alphabets, as in Python.
+  const PLACEHOLDER = new RegExp(`^(?:${DATA.refused.placeholder.replace("\\W", "[^\\p{L}\\p{N}_]")})$`, "iu");
   const round = (value, digits) => Number(value.toPrecision(digits));
   const unit_of = (column) => column.match(/\[(.*)\]/)[1].replace(/^1$/, "");
 
@@ -66,12 +65,12 @@ const readings = (() => {
   function unfit({ ranges, columns }, map, found, places) {
     for (const [i, axis] of ["x", "y"].entries()) {
       const [low, high] = ranges[i];
-      const most = LARGEST_SIGMA * (high - low);
+      const most = DATA.refused.largest_sigma * (high - low);
       if (found[axis] > most) {
         return `Sigma along ${axis} is ${round(found[axis], 2)}; the run allows up to ${round(most, 2)}. Read at a larger size.`;
       }
       const out = places.map((place) => map.to_axes(place)[i])
-        .find((value) => Math.max(low - value, value - high) > OUTSIDE * found[axis]);
+        .find((value) => Math.max(low - value, value - high) > DATA.refused.sigmas_outside * found[axis]);
       if (out !== undefined) {
         return `${columns[i]} = ${round(out, 3)} is outside ${low} to ${high}. Are marks or columns exchanged, or a sign turned?`;
       }

@@ -98,7 +98,7 @@ def _row(
         verdict, numbers = _judged(comparison, measured, significance)
         if comparison.or_printed:
             printed = measure(comparison, as_printed(comparison, curves))
-            verdict, cells["says"] = judge_print(comparison, measured, printed, significance)
+            verdict, cells["says"] = judge_print(comparison, verdict, printed, significance)
             of_model, of_printed = (
                 with_unit(float(f"{one.sizes['rms']:.2g}"), numbers["unit"])
                 for one in (measured, printed)

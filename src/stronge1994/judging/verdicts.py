@@ -46,12 +46,14 @@ def judge(
 
 
 def judge_print(
-    comparison: Comparison, of_model: Measured, of_printed: Measured, significance: float
+    comparison: Comparison, verdict: Verdict, of_printed: Measured, significance: float
 ) -> tuple[Verdict, str]:
-    """Verdict on a printed curve, and what it follows: the model, the printed equations, none."""
+    """Verdict on a printed curve, and what it follows: the model, the printed equations, none.
+
+    `verdict` is that beside the model.
+    """
     other = comparison.or_printed
     assert other is not None
-    verdict, _ = judge(comparison, of_model, significance)
     follows, _ = _is_good(comparison, of_printed, significance)
     if verdict != Verdict.FAILS:
         alike = f"it cannot tell the model from {other.equations} as printed"

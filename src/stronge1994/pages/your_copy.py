@@ -10,7 +10,9 @@ from markupsafe import Markup
 from stronge1994 import tables
 from stronge1994.judging import distances
 from stronge1994.pages import templates
-from stronge1994.reference_data import Series, strict_yaml
+from stronge1994.reference_data import LARGEST_SIGMA, Series, strict_yaml
+from stronge1994.reference_data.reading import PLACEHOLDER
+from stronge1994.reference_data.series import MOST_SIGMAS_OUTSIDE
 from stronge1994.tables import Table
 
 Panel: TypeAlias = dict[str, Any]
@@ -18,6 +20,12 @@ Panel: TypeAlias = dict[str, Any]
 SCRIPTS = ("files.js", "map.js", "trace.js", "exports.js", "readings.js", "page.js")
 WORDS = ("name", "line", "series")  # of a curve
 DIGITS = 6  # of the curves, more than a print has
+# What the run refuses, and so the page: texts, sigmas as a share of their range, points outside it.
+REFUSED = {
+    "placeholder": PLACEHOLDER.pattern,
+    "largest_sigma": LARGEST_SIGMA,
+    "sigmas_outside": MOST_SIGMAS_OUTSIDE,
+}
 
 
 def page(
@@ -32,7 +40,8 @@ def page(
     read = {figure: tables.read(path) for figure, path in curves.items()}
     panels = {name: _panel(panel, read[panel["figure"]], series) for name, panel in stated.items()}
     folder = next(Path(path).parent for path in paths if path.endswith("your_copy.html"))
-    data = json.dumps({"version": version, "panels": panels}, ensure_ascii=False)
+    told = {"version": version, "refused": REFUSED, "panels": panels}
+    data = json.dumps(told, ensure_ascii=False)
     template = templates.environment(folder).get_template("your_copy.html")
     return template.render(
         sources=texts, panels=panels, scripts=SCRIPTS, data=Markup(data.replace("</", "<\\/"))
