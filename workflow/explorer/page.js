@@ -1,25 +1,23 @@
 "use strict";
 
 // The page: its controls, its address, and what moves. State is what the controls show and what
-// stands behind # in the address; everything else follows from it. After each change it sends the
-// document an event "impact", whose detail is the first bounce as solved.
+// stands behind # in the address; everything else follows from it.
 const page = (() => {
   const element = (id) => document.getElementById(id);
   const SLIDERS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio", "speed", "spin",
-    "table"];
-  const CHOICES = ["view", "loss", "of"];
-  // Radius in mm, gravity in m/s^2.
+    "table", "compliance", "radius", "gravity"];
+  const CHOICES = ["view", "loss", "beside"];
+  // Compliance along the surface, over that of the body; radius in mm, gravity in m/s^2.
   const OPENING = {
-    angle: 50, friction: 0.4, restitution: 1, poisson_ratio: 0.3, mass_ratio: 3.5, speed: 5, spin: 0,
-    table: 0, radius: 25, gravity: 9.81, loss: "viscous", of: "continuum", view: "velocity",
-    models: models.TOGGLES,
+    angle: 50, friction: 0.4, restitution: 1, poisson_ratio: 0.3, mass_ratio: 3.5, compliance: 1,
+    speed: 5, spin: 0, table: 0, radius: 25, gravity: 9.81, loss: "viscous", beside: "rigid",
+    view: "velocity", models: models.TOGGLES,
   };
   const ALWAYS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]; // in the address
-  const UNSEEN = ["radius", "gravity"]; // numbers without a slider
   const SETTLED = 300; // ms without a change, after which the address says the state
   const GLIDE = 220; // ms from the frame of aiming to that of the throw
   const TOLD = 5000; // ms that a message stays
-  const INVITATION = "Grab the ball, drag, let go";
+  const INVITATION = "Press Throw, or drag a ball and let go";
   const INTENT = 8; // pixels that a finger moves before its direction counts
   // A comma is read as a decimal point, never as a separator of thousands.
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
@@ -33,6 +31,7 @@ const page = (() => {
   const state = { ...OPENING };
   let impact; // the first bounce, solved from the state
   let flights; // of both balls
+  let styles; // the models that fly them
   let list; // the models shown in the curves
   const scales = {}; // of the charts
   let frozen; // the end of the axis of incidence while its chart is dragged
@@ -64,7 +63,7 @@ const page = (() => {
   function read(address) {
     const given = new URLSearchParams(address);
     const values = { ...OPENING };
-    for (const name of [...SLIDERS, ...UNSEEN]) {
+    for (const name of SLIDERS) {
       if (!given.has(name)) continue;
       const value = parsed(given.get(name));
       if (is_allowed(name, value)) values[name] = value;
@@ -97,7 +96,7 @@ const page = (() => {
 
   // The same of the throw alone, whatever is looked at.
   const throw_address = (values) =>
-    address({ ...values, of: OPENING.of, view: OPENING.view, models: OPENING.models });
+    address({ ...values, beside: OPENING.beside, view: OPENING.view, models: OPENING.models });
 
   // ---- the throw ----------------------------------------------------------------------------
 
@@ -107,7 +106,9 @@ const page = (() => {
   // The throw as the flights need it, in SI, with the groups of its impacts.
   function thrown() {
     const { friction: mu, restitution: e, mass_ratio: beta } = state;
-    const groups = { mu, e, beta, zeta2: stiffness_ratio(state.poisson_ratio) };
+    const springs = state.beside === "rigid";
+    const own = stiffness_ratio(state.poisson_ratio);
+    const groups = { mu, e, beta, zeta2: own * (springs ? state.compliance : 1) };
     const radius = state.radius / 1000;
     const table = state.table > 4 * radius ? state.table : 0;
     return { ...state, radius, table, groups };
@@ -115,36 +116,26 @@ const page = (() => {
 
   const continuum_style = () => models.style_of(state.restitution, state.loss);
 
-  // The models that fly: the lumped one, and the continuum where it answers.
-  const styles_of_lanes = () => ({
-    lumped: "lumped",
-    ...(continuum.covers(state.restitution) ? { continuum: continuum_style() } : {}),
-  });
+  // The models that fly: the spring below a rigid contact, or the continuum below the spring.
+  const styles_of_lanes = () => state.beside === "rigid" ? { upper: "rigid", lower: "lumped" }
+    : { upper: "lumped", lower: continuum_style() };
 
+  // The impact that is looked at closer is the first bounce of the lower lane, if its model answers.
   function solved(throw_) {
     flights = {};
-    for (const [lane, style] of Object.entries(styles_of_lanes())) {
+    for (const [lane, style] of Object.entries(styles)) {
+      if (!["rigid", "lumped"].includes(style) && !continuum.covers(state.restitution)) continue;
       flights[lane] = flight.fly(throw_, (x) => models.contact(style, { ...throw_.groups, x }));
     }
-    const parts = flights[state.of] ?? flights.lumped;
-    const { x, contact, ball, after } = parts.find(({ kind }) => kind === "bounce");
+    const parts = flights.lower ?? flights.upper;
+    const { x, contact, ball, after, sign } = parts.find(({ kind }) => kind === "bounce");
     const groups = { ...throw_.groups, x };
     return {
-      ...groups, contact, before: ball, after, states: { [contact.style]: contact.state },
+      ...groups, contact, sign, before: ball, after, states: { [contact.style]: contact.state },
       result: solver.rebound(x, groups.beta, groups.zeta2, groups.e), // of the lumped model
       limit: models.slip_throughout_limit(contact.style, groups),
       phases: models.phases(contact.rows),
     };
-  }
-
-  // Distance along the surface at a time, in about v2(0)/Omega; for the drawing, by trapezia.
-  function way_at({ contact }, time) {
-    const passed = contact.rows.filter((row) => row.time <= time);
-    const rows = [...passed, models.at(contact, time)];
-    return rows.reduce((way, row, i) => {
-      const before = rows[Math.max(i - 1, 0)];
-      return way + ((row.time - before.time) * (row.velocity + before.velocity) * Math.PI) / 4;
-    }, 0);
   }
 
   // ---- drawing ------------------------------------------------------------------------------
@@ -153,14 +144,26 @@ const page = (() => {
   function show_time() {
     stage.show(now);
     element("time").value = now;
+    show_story();
     if (scales.forces) show_closer();
+  }
+
+  // The line below the stage: of a throw with springs what has happened up to now, else what the
+  // model of the lower lane says of the first bounce.
+  function show_story() {
+    const bounces = ({ kind }) => kind === "bounce";
+    const { bounces: count, over } = stage.progress(now);
+    const said = styles.upper !== "rigid" ? `${words.sentence(impact)} ${words.centre(impact)}`
+      : words.story({ upper: flights.upper.filter(bounces), lower: flights.lower.filter(bounces) },
+        count, over, impact.zeta2 > 0);
+    if (element("sentence").textContent !== said) element("sentence").textContent = said;
   }
 
   function show_closer() {
     const { time, touching } = stage.first_bounce(now);
     const here = Math.min(time, impact.contact.end);
     const row = models.at(impact.contact, here);
-    diagram.show(impact, row, way_at(impact, here), touching && time <= impact.contact.end);
+    diagram.show(impact, row, touching && time <= impact.contact.end);
     charts.move_cursor(element("forces"), scales.forces, here, [row.normal, row.friction]);
     charts.move_cursor(element("velocity"), scales.velocity, here, [row.velocity]);
     show_energies(2, "now", row.energy);
@@ -187,7 +190,7 @@ const page = (() => {
       friction: charts.number(contact.state.peak_friction, 3),
       stick: charts.number(zeta2, 3),
       slip: charts.number(limit, 3),
-      frequency: charts.number(Math.sqrt(beta / zeta2), 2),
+      frequency: zeta2 ? charts.number(Math.sqrt(beta / zeta2), 2) : "\u221E",
     };
     for (const name in texts) element(`number-${name}`).textContent = texts[name];
   }
@@ -214,8 +217,8 @@ const page = (() => {
       !mute && (direction !== own.direction || slides !== own.slides);
     element("doubt").textContent =
       outcomes.some(other) ? "Other models say otherwise: see the table." : "";
-    element("uncovered").hidden = continuum.covers(e);
-    element("own-force").hidden = state.view !== "forces" || !state.models.includes("continuum");
+    element("uncovered").hidden = continuum.covers(e) || state.beside === "rigid";
+    element("own-force").hidden = state.view !== "forces" || !list.some((style) => style in { elastic: 1, viscous: 1, plastic: 1 });
   }
 
   function show_controls() {
@@ -224,7 +227,11 @@ const page = (() => {
       const typed = element(`${name}-number`);
       if (typed !== document.activeElement) show_typed(name);
     }
-    element("stiffness_ratio").textContent = charts.number(impact.zeta2, 3);
+    element("stiffness_ratio").textContent = charts.number(stiffness_ratio(state.poisson_ratio), 3);
+    element("counted").textContent = charts.number(100 / state.mass_ratio, 0);
+    element("given").textContent = `Ball of radius ${charts.number(state.radius)}\u00A0mm, gravity ` +
+      `${charts.number(state.gravity)}\u00A0m/s\u00B2.`;
+    root.dataset.beside = state.beside;
     element("no-ball").hidden = state.mass_ratio >= 2;
     for (const name of CHOICES) element(name).value = state[name];
     element("loss").disabled = state.restitution === 1;
@@ -249,17 +256,15 @@ const page = (() => {
 
   function show_names() {
     const name = models.NAMES[continuum_style()];
-    const lanes = { lumped: models.NAMES.lumped, continuum: name };
-    for (const lane in lanes) {
-      const short = innerWidth < 600 ? lane : lanes[lane];
+    const springs = ["contact without a spring", impact.zeta2 ? "contact with a spring" : "spring taken away"];
+    const lanes = state.beside === "rigid" ? springs : [models.NAMES.lumped, name];
+    ["upper", "lower"].forEach((lane, i) => {
+      const short = innerWidth < 600 ? lanes[i].replace(/^the paper\u2019s |^contact |, .*| model/g, "") : lanes[i];
       element(`stage-${lane}-name`).textContent = `\u25CF ${short}:`;
-      document.querySelector(`.patch.${lane} .patch-name`).textContent = `${short}: `;
-    }
+      element(`patch-${lane}-name`).textContent = `${short}: `;
+    });
     for (const part of document.querySelectorAll(".of-model")) {
       part.textContent = models.NAMES[impact.contact.style];
-    }
-    for (const part of document.querySelectorAll(".continuum")) {
-      part.classList.toggle("plastic", continuum_style() === "plastic");
     }
   }
 
@@ -271,12 +276,13 @@ const page = (() => {
     // Sizes are read before anything changes, which would cost time. Type is larger on a projector,
     // and a chart is drawn larger with it.
     const wide = width_of("incidence");
+    styles = styles_of_lanes();
     impact = solved(throw_);
-    list = models.chosen(impact, state.models);
-    stage.prepare(throw_, flights);
+    // The continuum is looked at where it flies.
+    const shown = state.models.filter((name) => name !== "continuum" || state.beside === "continuum");
+    list = models.chosen(impact, shown);
+    stage.prepare(throw_, flights, styles);
     now = Math.min(now, stage.duration());
-    element("sentence").textContent = words.sentence(impact);
-    element("of-the-centre").textContent = words.centre(impact);
     if (!embedded) {
       const end = frozen ?? charts.widest(impact);
       scales.incidence = charts.incidence(
@@ -287,7 +293,6 @@ const page = (() => {
     show_names();
     look_closer();
     show_time();
-    document.dispatchEvent(new CustomEvent("impact", { detail: impact }));
   }
 
   const width_of = (name) =>
@@ -423,7 +428,9 @@ const page = (() => {
     else requestAnimationFrame(frame);
   }
 
+  // Throws the ball, or goes on. Who wants no motion sees where it went.
   function play(on) {
+    if (on && still.matches) return go_to(stage.duration());
     if (on && now >= stage.duration() - 1e-3) now = 0;
     playing = on;
     last = undefined;
@@ -432,11 +439,10 @@ const page = (() => {
     if (on) requestAnimationFrame(frame);
   }
 
-  // Throws the ball from the hand. Who wants no motion sees where it went.
+  // Throws the ball from the hand.
   function throw_ball() {
-    now = still.matches ? stage.duration() : 0;
-    if (still.matches) show_time();
-    else play(true);
+    now = 0;
+    play(true);
   }
 
   // Before a throw the frame glides from the one in which the ball was aimed.
@@ -463,7 +469,7 @@ const page = (() => {
   element("do-start").addEventListener("click", () => go_to(0));
   element("do-micro").addEventListener("click", () => {
     const time = stage.micro_slip();
-    if (!flights.continuum) tell(element("uncovered").textContent);
+    if (!flights.lower) tell(element("uncovered").textContent);
     else if (time === null) tell("In the first bounce of this throw the contact sticks nowhere.");
     else go_to(time);
   });
@@ -501,8 +507,8 @@ const page = (() => {
     });
     handle.addEventListener("pointercancel", () => stage.hold(false));
   }
-  on_hand("grasp", (event) => stage.aim_at(event, "continuum"), glide_and_throw);
-  on_hand("other-grasp", (event) => stage.aim_at(event, "lumped"), glide_and_throw);
+  on_hand("grasp", (event) => stage.aim_at(event, "lower"), glide_and_throw);
+  on_hand("other-grasp", (event) => stage.aim_at(event, "upper"), glide_and_throw);
   on_hand("knob", (event) => ({ spin: Math.round(stage.spin_at(event) / 5) * 5 }), () => {});
   const invite = (text) => (stage.part("invitation").textContent = text);
   stage.part("grasp").addEventListener("focus", ({ target }) => {
@@ -518,7 +524,8 @@ const page = (() => {
       ArrowDown: turn("speed", -0.2), PageUp: turn("spin", 20), PageDown: turn("spin", -20),
     }[event.key];
     if (change) take(change);
-    else if (event.key === "Enter" || event.key === " ") throw_ball();
+    else if (event.key === "Enter") throw_ball();
+    else if (event.key === " ") play(!playing);
     else return;
     event.preventDefault();
   });
@@ -652,7 +659,7 @@ const page = (() => {
       tell("impact.csv has the curves shown and the numbers of this impact.");
     },
     async ball() {
-      const above = [element("sentence").textContent, words.centre(impact)];
+      const above = [element("sentence").textContent];
       files.save("stage.png", await files.picture(element("stage-svg"), above, [about_impact()]));
       tell("stage.png has the picture of the stage.");
     },
@@ -660,10 +667,10 @@ const page = (() => {
       const legend = scales.incidence.curves.map(({ style }) =>
         [element("incidence").querySelector(`polyline.${style}`), models.NAMES[style]]);
       const shown = element("view").selectedOptions[0].textContent;
-      const unit = document.querySelector(".above [data-view]:not([hidden])").textContent;
-      const along = document.querySelector(".under [data-view]:not([hidden])").textContent;
-      const above = [`${shown}: ${unit}`.replace(/\s+/g, " ")];
-      const below = [`against ${along}`.replace(/\s+/g, " "), ...legend, about_impact()];
+      const of = (place) => files.plain(document.querySelector(`${place} [data-view]:not([hidden])`));
+      const [unit, along] = [of(".above"), of(".under")];
+      const above = [`${shown}: ${unit}`];
+      const below = [`against ${along}`, ...legend, about_impact()];
       files.save("curve.png", await files.picture(element("incidence"), above, below));
       tell("curve.png has the curve.");
     },
@@ -702,6 +709,8 @@ const page = (() => {
     // A place on the page, as #main, says no state.
     if (place === "" || place.includes("=")) restore();
   });
+  // Also when the words below it take more lines.
+  new ResizeObserver(changed).observe(element("stage-svg"));
   addEventListener("resize", changed);
 
   // Goes to the state that an address says, as a preset does.

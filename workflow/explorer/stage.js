@@ -1,12 +1,12 @@
 "use strict";
 
-// The stage: two balls thrown alike, one by the lumped model and one by the continuum, each above its
-// own floor and below the name of its model; and what the contact of each looks like. The time of the
-// show, in seconds, stretches each contact.
+// The stage: two balls thrown alike, the upper one by one model and the lower one by another, each
+// above its own floor and below the name of its model; and what the contact of each looks like. The
+// time of the show, in seconds, stretches each contact.
 const stage = (() => {
   const SLOW_FLIGHT = 3; // times slower than in nature
   const FIRST_CONTACT = 1.5; // s that one t_c takes in the first bounce, and in the others
-  const LATER_CONTACT = 0.6;
+  const LATER_CONTACT = 1;
   const FLASH = 0.04; // s between two images of a ball, at least
   const SHOWN = 3; // flights that the frame shows; later ones may leave it
   const STEP = 0.012; // s between two corners of a path
@@ -15,7 +15,8 @@ const stage = (() => {
   // which the scale stands.
   const [NAME, FLOOR, BASE] = [24, 9, 24];
   const RULERS = [5, 1, 0.5, 0.1]; // m; the first that takes at most a sixth of the width
-  const LANES = ["lumped", "continuum"];
+  const LANES = ["upper", "lower"];
+  const LENS = 64; // px, radius of the magnifying glass at most
   const element = (id) => document.getElementById(id);
   const svg = element("stage-svg");
   const part = (name) => element(`stage-${name}`);
@@ -93,7 +94,7 @@ const stage = (() => {
     const height = Math.max(svg.clientHeight, 120);
     const floor = height - BASE; // of the lower lane
     const sky = (floor - 2 * NAME - FLOOR) / 2; // of each lane
-    const radius = Math.min(24, sky / 6) * (gap ? 0.65 : 1);
+    const radius = Math.min(24, sky / 6) * (gap ? 0.8 : 1);
     const places = [0];
     const heights = [gap || 0.3];
     const count = gap ? Infinity : SHOWN;
@@ -113,13 +114,13 @@ const stage = (() => {
     const used = Math.min((right - left) * scale, room);
     const origin = 2 * radius - left * scale + (room - used) / 2;
     // Pixels for 1 m/s of the ball in the hand: its arrow ends above the floor.
-    const [{ ball }] = flights.lumped;
+    const [{ ball }] = flights.upper;
     const free = scale * ball.height + radius;
     const aim = Math.min(18, width / 36, free / Math.max(-ball.up, 0.1));
     return { width, height, radius, floor, upper: NAME + sky, scale, origin, gap, aim };
   }
 
-  const floor_of = (lane) => (lane === "lumped" ? frame.upper : frame.floor);
+  const floor_of = (lane) => (lane === "upper" ? frame.upper : frame.floor);
 
   const place_of = ({ place, height }, lane) => [
     frame.origin + frame.scale * place,
@@ -149,10 +150,11 @@ const stage = (() => {
     return { corners, images };
   }
 
-  function prepare(given, flights) {
+  // `styles` are the models of the lanes; one that has no answer has no flights.
+  function prepare(given, flights, styles) {
     const gap = given.table ? given.table - 2 * given.radius : 0;
     const list = segments(flights);
-    shown = { given, flights, segments: list, drawn: {} };
+    shown = { given, flights, styles, segments: list, drawn: {} };
     aimed_frame = framed(flights, gap);
     // Under a table the paths cross, and images would hide them.
     const { radius, scale } = aimed_frame;
@@ -161,7 +163,11 @@ const stage = (() => {
     shown.traces = Object.fromEntries(
       Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list, flash)]));
     put_frame(held ?? aimed_frame);
-    for (const lane of LANES) part(lane).classList.toggle("absent", !flights[lane]);
+    for (const lane of LANES) {
+      part(lane).setAttribute("class", `lane ${styles[lane]} ${flights[lane] ? "" : "absent"}`);
+      part(`${lane}-words`).setAttribute("class", `lane-name ${styles[lane]}`);
+      element(`patch-${lane}-figure`).setAttribute("class", `patch ${styles[lane]}`);
+    }
   }
 
   // Draws what stands still in a frame.
@@ -177,7 +183,7 @@ const stage = (() => {
     const under = scale * gap + 2 * radius; // the table of a lane, above its floor
     part("table").setAttribute("d", !gap ? "" :
       [upper, floor].map((low) => board(low - under - 5, low - under)).join(""));
-    element("lane-continuum").setAttribute("y", upper + FLOOR + NAME - 6);
+    part("lower-words").setAttribute("y", upper + FLOOR + NAME - 6);
     const [end, line] = [width - 12, floor + BASE / 2];
     const metres = RULERS.find((one) => scale * one < width / 6) ?? RULERS.at(-1);
     part("ruler").setAttribute("d", `M${end},${line - 4}v8m0,-4h${-scale * metres}m0,-4v8`);
@@ -201,7 +207,8 @@ const stage = (() => {
     const senses = frame.width < 600 ? ["\u21BB", "\u21BA"] : ["clockwise", "anticlockwise"];
     const turning = Math.abs(spin) < 0.5 ? "no spin" :
       `${Math.abs(spin).toFixed(0)} rad/s ${senses[spin > 0 ? 0 : 1]}`;
-    return `${Math.abs(along).toFixed(1)} m/s ${way}, ${turning}`;
+    const going = Math.abs(along) < 0.05 ? "" : `${Math.abs(along).toFixed(1)} m/s ${way}, `;
+    return `${going}${turning}`;
   };
 
   function show_lane(lane, now, at_moment) {
@@ -235,17 +242,33 @@ const stage = (() => {
       }).join(""));
     }
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
-    const arrow = bounce ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
+    const arrow = bounce && !(row && with_springs()) ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
     part(`${lane}-slip`).setAttribute("d", arrow);
     const label = part(`${lane}-slip-words`);
-    label.style.visibility = arrow && !frame.gap ? "visible" : "hidden";
+    label.style.visibility = arrow && !frame.gap && !with_springs() ? "visible" : "hidden";
     // Above the arrow and beside the ball, where there is more room.
     const [ahead, long] = [x < frame.width / 2, label.getComputedTextLength()];
     const start = ahead ? x + radius + 8 : x - radius - 8 - long;
     label.setAttribute("x", Math.max(8, Math.min(start, frame.width - 8 - long)));
     label.setAttribute("y", foot - 8);
     part(`${lane}-numbers`).textContent = speed_words(ball);
-    patch_of(lane, bounce, row);
+    part(`${lane}-lens`).innerHTML = row && with_springs() ? lens_of(lane, bounce, row, [x, foot]) : "";
+    if (!with_springs()) patch_of(lane, bounce, row);
+  }
+
+  // Both lanes have one contact point, with a spring or without: the scene of the lower lane's spring.
+  const with_springs = () => shown.styles.lower === "lumped";
+
+  // The magnifying glass beside the ball, where there is more room.
+  function lens_of(lane, bounce, now, tip) {
+    const size = Math.min(LENS, (frame.upper - NAME) / 2 - 3);
+    const side = tip[0] < frame.width / 2 ? 1 : -1;
+    const x = tip[0] + side * (frame.radius + 14 + size);
+    const y = floor_of(lane) - (frame.upper - NAME) / 2 + 2;
+    const springy = lane === "lower" && shown.given.groups.zeta2 > 0;
+    const up = bounce.wall === "table" ? -1 : 1;
+    return lens.show({ now, first: bounce.x, sign: bounce.sign, up, springy, x, y, size, tip, side,
+      width: frame.width });
   }
 
   // Pixels for 1 m/s, of arrows.
@@ -254,7 +277,7 @@ const stage = (() => {
   function patch_of(lane, bounce, row) {
     const style = bounce?.contact.style;
     const { e } = shown.given.groups;
-    const motion = style && style !== "lumped" ? continuum.normal(e, style) : null;
+    const motion = style && lane === "lower" ? continuum.normal(e, style) : null;
     const zones = patch.show(lane, row, bounce?.sign ?? 1, motion);
     element(`patch-${lane}-words`).textContent = patch.words(zones);
   }
@@ -265,6 +288,7 @@ const stage = (() => {
     const { segment } = at_moment;
     const bounces = shown.segments.slice(0, segment.index + 1)
       .filter(({ kind }) => kind === "bounce").length;
+    shown.bounces = bounces - (segment.kind === "bounce");
     part("moment").textContent = segment.kind === "bounce"
       ? `bounce ${bounces}, in slow motion`
       : now === 0 ? "" : `in flight, ${SLOW_FLIGHT} times slower`;
@@ -275,13 +299,13 @@ const stage = (() => {
 
   function show_hand() {
     const ball = flight.start(shown.given);
-    const [x, y] = place_of(ball, "continuum");
+    const [x, y] = place_of(ball, "lower");
     const { radius } = frame;
     const k = frame.aim;
     part("hand").setAttribute("transform", `translate(${x.toFixed(1)},${y.toFixed(1)})`);
     const reach = Math.max(radius + 8, 24);
     part("grasp").setAttribute("r", reach);
-    const [back_x, back_y] = place_of(ball, "lumped");
+    const [back_x, back_y] = place_of(ball, "upper");
     part("other-grasp").setAttribute("cx", back_x - x);
     part("other-grasp").setAttribute("cy", back_y - y);
     part("other-grasp").setAttribute("r", reach);
@@ -294,7 +318,7 @@ const stage = (() => {
     // Beside the arrow; where there is no room, below or above it.
     const words = part("aim-words");
     words.textContent = `${shown.given.speed.toFixed(1)} m/s at the floor`;
-    const beside = Math.max(right, radius) + 8;
+    const beside = Math.max(right, reach) + 8;
     const most = frame.width - x - words.getComputedTextLength() - 8;
     const low = frame.floor - y - 7;
     const near = beside < most ? Math.min(down + 5, low) : down > 20 ? low : -reach - 6;
@@ -323,7 +347,7 @@ const stage = (() => {
   // Spin by the angle at which the knob stands round the ball.
   function spin_at(event) {
     const point = point_of(event);
-    const [x, y] = place_of(flight.start(shown.given), "continuum");
+    const [x, y] = place_of(flight.start(shown.given), "lower");
     const turn = Math.atan2(point.x - x, y - point.y);
     // More than half a turn goes on where it is.
     const whole = Math.round((shown.given.spin / RADIANS_A_SECOND - turn) / (2 * Math.PI));
@@ -340,8 +364,8 @@ const stage = (() => {
 
   // The time at which the first bounce of the continuum has a slipping edge that is easy to see.
   function micro_slip() {
-    const bounce = shown.flights.continuum?.find(({ kind }) => kind === "bounce");
-    if (!bounce) return null;
+    const bounce = shown.flights.lower?.find(({ kind }) => kind === "bounce");
+    if (!bounce || with_springs()) return null;
     const ring = ({ slips, touching }) => {
       const inside = [...slips].slice(0, touching);
       const held_inside = inside.filter((slip) => slip === 0).length;
@@ -354,5 +378,8 @@ const stage = (() => {
     return segment.start + (best.time / segment.end) * segment.length;
   }
 
-  return { prepare, show, duration, first_bounce, aim_at, spin_at, hold, glide, micro_slip, part };
+  // Bounces that are over, and whether the show is.
+  const progress = (now) => ({ bounces: shown.bounces, over: now >= shown.end - 1e-3 });
+
+  return { progress, prepare, show, duration, first_bounce, aim_at, spin_at, hold, glide, micro_slip, part };
 })();

@@ -70,4 +70,6 @@ def compare(names: Mapping[str, Any], rows: Sequence[Mapping[str, str]]) -> None
             )
             found = ", ".join(f"{value:.6g}" for value in given)
         if not right:
-            raise WrongNumberError(f"{row['cell']}: the text says {row['says']!r}, its cells give {found}")
+            raise WrongNumberError(
+                f"{row['cell']}: the text says {row['says']!r}, its cells give {found}"
+            )
