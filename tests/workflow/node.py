@@ -26,8 +26,8 @@ const document = {{ getElementById: (id) => drawn[id] ??= {{
 // One impact as a page knows it.
 function impact_of(style, groups) {{
   const contact = models.contact(style, groups);
-  return {{ ...groups, sign: 1, contact, states: {{}}, limit: models.slip_throughout_limit(style, groups),
-    phases: models.phases(contact.rows) }};
+  return {{ ...groups, sign: 1, contact, states: {{}}, phases: models.phases(contact.rows),
+    limit: models.slip_throughout_limit(style, groups) }};
 }}
 """
 # Answers each line, an expression, with its value or its error.

@@ -135,8 +135,8 @@ def test_the_story_of_a_throw_says_what_each_bounce_has_done(scripts):
     assert "came back" not in without[4] and "spring recoiled" not in "".join(without)
 
 
-# What is drawn of a throw at a time of its show, a share of the first bounce and the flight before it,
-# and what the microscope shows of that bounce.
+# What is drawn of a throw at a time of its show, a share of the first bounce and the flight before
+# it, and what the microscope shows of that bounce.
 SHOWN = """([given, styles, share]) => {
   for (const id in drawn) delete drawn[id];
   const groups = (x) => (

@@ -180,21 +180,6 @@ const page = (() => {
     }
   }
 
-  function show_numbers() {
-    const { x, beta, zeta2, limit, contact, after } = impact;
-    const texts = {
-      incidence: charts.number(x, 3),
-      velocity: charts.number(contact.state.velocity, 3),
-      centre: charts.number(after.along, 3),
-      spin: charts.number(after.spin, 1),
-      friction: charts.number(contact.state.peak_friction, 3),
-      stick: charts.number(zeta2, 3),
-      slip: charts.number(limit, 3),
-      frequency: zeta2 ? charts.number(Math.sqrt(beta / zeta2), 2) : "\u221E",
-    };
-    for (const name in texts) element(`number-${name}`).textContent = texts[name];
-  }
-
   // What each model says of the first bounce, with a word beside the numbers where they disagree.
   function show_models() {
     const { mu, x, beta, e } = impact;
@@ -263,9 +248,7 @@ const page = (() => {
       element(`stage-${lane}-name`).textContent = `\u25CF ${short}:`;
       element(`patch-${lane}-name`).textContent = `${short}: `;
     });
-    for (const part of document.querySelectorAll(".of-model")) {
-      part.textContent = models.NAMES[impact.contact.style];
-    }
+    element("of-model").textContent = models.NAMES[impact.contact.style];
   }
 
   const show_typed = (name) =>
@@ -314,7 +297,6 @@ const page = (() => {
     const [forces, velocity] = ["forces", "velocity"].map(width_of);
     scales.forces = charts.forces(element("forces"), forces, impact);
     scales.velocity = charts.velocity(element("velocity"), velocity, impact);
-    show_numbers();
     show_energies(1, "before", impact.contact.rows[0].energy);
     show_energies(3, "after", impact.contact.rows.at(-1).energy);
     show_closer();
@@ -422,7 +404,7 @@ const page = (() => {
     if (!playing) return;
     const passed = Math.min(time - (last ?? time), 100) / 1000;
     last = time;
-    now = Math.min(now + passed * Number(element("pace").value), stage.duration());
+    now = Math.min(now + passed, stage.duration());
     show_time();
     if (now >= stage.duration()) play(false);
     else requestAnimationFrame(frame);
@@ -475,7 +457,6 @@ const page = (() => {
   });
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
   document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && root.dataset.mode === "projector") ACTIONS.projector();
     if (embedded && !event.target.matches("input, select, .grasp")) {
       parent.postMessage({ key: event.key }, "*");
     }
@@ -614,12 +595,10 @@ const page = (() => {
       ? root.dataset.theme === "dark"
       : matchMedia("(prefers-color-scheme: dark)").matches;
 
-  function look({ theme, mode }) {
+  function look(theme) {
     if (theme) root.dataset.theme = theme;
-    if (mode) root.dataset.mode = mode;
     if (embedded) root.dataset.mode = "stage";
     element("do-dark").ariaPressed = is_dark();
-    element("do-projector").ariaPressed = root.dataset.mode === "projector";
   }
 
   let telling;
@@ -638,13 +617,7 @@ const page = (() => {
     dark() {
       const theme = is_dark() ? "light" : "dark";
       store("explorer-theme", theme);
-      look({ theme });
-    },
-    projector() {
-      const mode = root.dataset.mode === "projector" ? "desk" : "projector";
-      store("explorer-mode", mode);
-      look({ mode });
-      refresh();
+      look(theme);
     },
     async copy() {
       const link = `${location.href.split("#")[0]}#${address()}`;
@@ -699,10 +672,10 @@ const page = (() => {
 
   // The page round a stage says when it becomes dark or light.
   addEventListener("message", ({ data }) => {
-    if (embedded && ["dark", "light"].includes(data?.theme)) look({ theme: data.theme });
+    if (embedded && ["dark", "light"].includes(data?.theme)) look(data.theme);
   });
 
-  look({ theme: stored("explorer-theme"), mode: stored("explorer-mode") });
+  look(stored("explorer-theme"));
   restore();
   addEventListener("popstate", () => {
     const place = location.hash.slice(1);

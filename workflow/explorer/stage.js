@@ -244,13 +244,6 @@ const stage = (() => {
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
     const arrow = bounce && !(row && with_springs()) ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
     part(`${lane}-slip`).setAttribute("d", arrow);
-    const label = part(`${lane}-slip-words`);
-    label.style.visibility = arrow && !frame.gap && !with_springs() ? "visible" : "hidden";
-    // Above the arrow and beside the ball, where there is more room.
-    const [ahead, long] = [x < frame.width / 2, label.getComputedTextLength()];
-    const start = ahead ? x + radius + 8 : x - radius - 8 - long;
-    label.setAttribute("x", Math.max(8, Math.min(start, frame.width - 8 - long)));
-    label.setAttribute("y", foot - 8);
     part(`${lane}-numbers`).textContent = speed_words(ball);
     part(`${lane}-lens`).innerHTML = row && with_springs() ? lens_of(lane, bounce, row, [x, foot]) : "";
     if (!with_springs()) patch_of(lane, bounce, row);
