@@ -38,13 +38,13 @@ def impacts():
 
 
 def disagreements(scripts, rows):
-    """Rows that this JavaScript solves otherwise than the package."""
+    """Rows whose results by this JavaScript differ from those of the package."""
     found = lumped.rebound(*np.transpose(rows))
     wanted = found.velocity, found.peak_friction, found.dissipation
     fields = "[found.velocity, found.peak_friction, found.dissipation, found.regime]"
     one = f"(row) => {{ const found = solver.rebound(...row); return {fields}; }}"
     *numbers, regimes = zip(*scripts.map(one, rows), strict=True)
-    # Velocity and dissipation of a grazing blow are as large as its incidence.
+    # Velocity and dissipation of a grazing impact are as large as its incidence.
     size = np.maximum(np.array(rows)[:, 0], 1.0)
     close = np.abs(np.array(numbers, float) - wanted) <= ACCURACY * size
     same = np.array(regimes) == [Regime(code).name for code in found.regime]

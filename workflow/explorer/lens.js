@@ -20,7 +20,7 @@ const lens = (() => {
   // What the contact does now.
   function words({ sticks, velocity, spring }, springy) {
     if (!sticks) return "slips: friction is at its limit";
-    if (!springy) return "has stopped: nothing throws it back";
+    if (!springy) return "stopped: nothing throws it back";
     if (velocity * spring <= 0) return "sticks: the spring recoils";
     return `sticks: the spring ${spring > 0 ? "stretches" : "swings on"}`;
   }
