@@ -20,13 +20,14 @@ import pandas as pd
 STYLE = re.compile(r'"(\w+\.mplstyle)"')
 TABLE = re.compile(r'^(.*)pd\.read_csv\("([^"]+)"\)$', re.M)
 PICTURE = re.compile(r"!\[([^]]*)\]\((\.\./[^)]+\.svg)\)")
-PAGES = "../../figures/"
+PAGE = re.compile(r"\.\./\.\./figures/([\w.]+)(?:\?stage(?:=\w+)?)?")
 MODULE = re.compile(r"^(?:from|import) (\w+)", re.M)
 BEGIN = """\
 **This notebook is yours.** Run it from top to bottom: menu *Run*, *Run All Cells*. Then change any
 number in a cell, and run that cell and those below it again. A click opens what is folded. Cells
 with `play(...)` have sliders if `ipywidgets` was installed before Jupyter was started, else numbers
-to change. If something no longer works: undo your change, restart, and run all cells again."""
+to change. If something no longer works: undo your change, restart, and run all cells again. Links
+lead to pages that lie beside this notebook, where it was downloaded."""
 INSTALL = """\
 # Install what is missing. Is planarimpact not on the package index? Then give WHERE its folder.
 WHERE = "planarimpact"
@@ -78,14 +79,14 @@ def text(source: str, folder: Path) -> str:
     """A cell of text with its pictures inside, and links to the pages beside it.
 
     >>> text("[Play it](../../figures/explorer.html?stage#angle=5)", Path())
-    '[Play it](explorer.html?stage#angle=5)'
+    '[Play it](explorer.html#angle=5)'
     """
 
     def inside(picture: re.Match[str]) -> str:
         data = base64.b64encode((folder / picture[2]).read_bytes()).decode()
         return f'<img alt="{picture[1]}" src="data:image/svg+xml;base64,{data}">'
 
-    return PICTURE.sub(inside, source.replace(PAGES, ""))
+    return PICTURE.sub(inside, PAGE.sub(r"\1", source))
 
 
 def style(path: Path) -> str:
