@@ -256,7 +256,7 @@ const page = (() => {
 
   function refresh() {
     const throw_ = thrown();
-    // Sizes are read before anything changes, which would cost time. Type is larger on a projector,
+    // Sizes are read before anything changes, which would cost time. Type is larger in a wide frame,
     // and a chart is drawn larger with it.
     const wide = width_of("incidence");
     styles = styles_of_lanes();
