@@ -3,6 +3,7 @@
 import math
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from planarimpact import models
@@ -10,6 +11,8 @@ from stronge1994 import tables
 from stronge1994.figures.trade import curves as trade
 from stronge1994.pages import which_model
 
+TRIED = "steps", "circles", "tolerance"
+STEPS = np.linspace(-0.01, 0.01, 41)  # of incidence
 MAX = "max_velocity [mu v2(0)]"
 
 
@@ -47,6 +50,21 @@ def test_a_velocity_that_is_no_number_shows():
     exact = models.rebound("lumped", [1.0, 2.0])
     found = trade.errors(exact._replace(velocity=exact.velocity * float("nan")), exact)
     assert found[MAX] != found[MAX]  # NaN: then the table is not written
+
+
+@pytest.mark.parametrize("model", ["spheres", "spline of continuum"])
+def test_the_largest_error_is_found_where_it_is_beside_a_kink(model):
+    """Of a spline at zeta^2, of the table of spheres where slip throughout begins."""
+    groups = {"mass_ratio": 3.5, "stiffness_ratio": 17 / 14, "restitution": 1.0}
+    rebound = {c.model: c.rebound for c in trade._contenders(groups, dict.fromkeys(TRIED, []), 8)}
+    near = trade.at_kinks(groups, (0, 8))
+    places = np.linspace(0, 8, 81), near, np.sort(np.add.outer(near, STEPS).ravel())
+    evenly, kinks, everywhere = (
+        np.abs(rebound[model](x).velocity - trade.reference(x, groups, 2e-6, "").velocity).max()
+        for x in places
+    )
+    assert kinks > 2 * evenly
+    assert everywhere <= 1.1 * kinks
 
 
 def row(model, error, e=1.0, loss="", build=None, times=(None, None), scatter=0.02, **settings):
