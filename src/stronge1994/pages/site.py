@@ -1,4 +1,4 @@
-"""All pages of a run in one folder, for a web server or a stick."""
+"""The pages of a run in one folder, for a web server or a USB stick."""
 
 import shutil
 from collections.abc import Iterable

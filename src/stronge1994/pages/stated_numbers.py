@@ -20,8 +20,10 @@ from stronge1994.reference_data import SourceError, load_yaml
 Row: TypeAlias = Mapping[str, str]
 NUMBER = re.compile(r"(?<![\w.])[−-]?\d+(?:\.\d+)?(?:e-?\d+)?(?: ?%)?")
 KEYS = {"cell", "says", "given", "gives", "holds"}
-# A cell that a run adds below a text, and that no notebook keeps. It leaves no name behind.
-CHECK = "__import__('stronge1994.pages.stated_numbers', fromlist='_').compare(globals(), {})"
+# A cell that a run adds below a text, and that no notebook keeps.
+CHECK = """\
+from stronge1994.pages import stated_numbers as _stated_numbers
+_stated_numbers.compare(globals(), {})"""
 
 
 class WrongNumberError(Exception):

@@ -18,7 +18,7 @@ import pandas as pd
 
 # What a lecture reads from files, and how: no other way is known here.
 STYLE = re.compile(r'"(\w+\.mplstyle)"')
-TABLE = re.compile(r'^(.*)pd\.read_csv\("([^"]+)"\)$', re.M)
+TABLE = re.compile(r'^(\w+) = pd\.read_csv\("([^"]+)"\)$', re.M)
 PICTURE = re.compile(r"!\[([^]]*)\]\((\.\./[^)]+\.svg)\)")
 PAGE = re.compile(r"\.\./\.\./figures/([\w.]+)(?:\?stage(?:=\w+)?)?")
 MODULE = re.compile(r"^(?:from|import) (\w+)", re.M)
@@ -36,7 +36,7 @@ try:
     import {modules}
 except ModuleNotFoundError:
     %pip install "{{WHERE}}" {others}
-    import {modules}"""
+import planarimpact  # where this fails, pip says above what is wrong"""
 
 
 def notebook(book: Any, folder: Path) -> Any:
@@ -72,7 +72,7 @@ def notebook(book: Any, folder: Path) -> Any:
 def code(source: str, folder: Path) -> str:
     """A cell of code with the style and the table that it reads inside."""
     source = STYLE.sub(lambda name: style(folder / name[1]), source)
-    return TABLE.sub(lambda read: f"{read[1]}{table(folder / read[2])}", source)
+    return TABLE.sub(lambda read: table(read[1], folder / read[2]), source)
 
 
 def text(source: str, folder: Path) -> str:
@@ -97,10 +97,10 @@ def style(path: Path) -> str:
     return pprint.pformat(values, sort_dicts=False, width=100)
 
 
-def table(path: Path) -> str:
-    """A table as an expression in Python; six digits of each number are enough for a picture."""
+def table(name: str, path: Path) -> str:
+    """A table in Python, with its name; six digits of each number are enough for a picture."""
     words = pd.read_csv(path).to_csv(index=False, float_format="%.6g", lineterminator="\n")
-    return f'pd.read_csv(__import__("io").StringIO("""\\\n{words}"""))'
+    return f'from io import StringIO\n\n{name} = pd.read_csv(StringIO("""\\\n{words}"""))'
 
 
 def install(sources: str) -> str:
@@ -111,7 +111,7 @@ def install(sources: str) -> str:
         import matplotlib, planarimpact
     except ModuleNotFoundError:
         %pip install "{WHERE}" matplotlib
-        import matplotlib, planarimpact
+    import planarimpact  # where this fails, pip says above what is wrong
     """
     modules = {*MODULE.findall(sources), "planarimpact"} - set(sys.stdlib_module_names)
     others = modules - {"planarimpact", "numpy", "scipy"}  # which it brings along
