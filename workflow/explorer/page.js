@@ -17,7 +17,7 @@ const page = (() => {
   const SETTLED = 300; // ms without a change, after which the address says the state
   const GLIDE = 220; // ms from the frame of aiming to that of the throw
   const TOLD = 5000; // ms that a message stays
-  const INVITATION = "Press Throw, or drag a ball and let go";
+  const INVITATION = "Press Throw, or drag a ball";
   const INTENT = 8; // pixels that a finger moves before its direction counts
   // A comma is read as a decimal point, never as a separator of thousands.
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
