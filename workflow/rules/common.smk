@@ -150,5 +150,5 @@ def summary(stopped):
 def notice():
     """What a run says before it begins, if it is long and was not asked for by the main command."""
     if any(job.rule.name == "site" for job in workflow.dag.needrun_jobs()):
-        return "site: where nothing is made yet, all pages take five minutes of processor time."
+        return "site: where nothing is made yet, all pages take five minutes of processor time.\n"
     return ""

@@ -57,7 +57,9 @@ def notebook(book: Any, folder: Path) -> Any:
         kept = {"jupyter", "jp-MarkdownHeadingCollapsed"} & set(cell.metadata)
         cell.metadata = nbformat.from_dict({key: cell.metadata[key] for key in sorted(kept)})
         change = code if cell.cell_type == "code" else text
-        cell.source = change(cell.source, folder)
+        before, cell.source = cell.source, change(cell.source, folder)
+        if cell.cell_type == "code" and cell.source != before:
+            cell.metadata["jupyter"] = {"source_hidden": True}
         if cell.cell_type == "code" and re.search(r"\.\./|\.mplstyle", cell.source):
             raise ValueError(f"{cell.get('id')}: a student has no such file: {cell.source[:60]!a}")
     first = next(n for n, cell in enumerate(made.cells) if cell.cell_type == "code")
@@ -100,7 +102,8 @@ def style(path: Path) -> str:
 def table(name: str, path: Path) -> str:
     """A table in Python, with its name; six digits of each number are enough for a picture."""
     words = pd.read_csv(path).to_csv(index=False, float_format="%.6g", lineterminator="\n")
-    return f'from io import StringIO\n\n{name} = pd.read_csv(StringIO("""\\\n{words}"""))'
+    about = f"# {path.name}, as the run that made this notebook has made it."
+    return f'{about}\nfrom io import StringIO\n\n{name} = pd.read_csv(StringIO("""\\\n{words}"""))'
 
 
 def install(sources: str) -> str:
