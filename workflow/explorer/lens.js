@@ -19,10 +19,10 @@ const lens = (() => {
 
   // What the contact does now.
   function words({ sticks, velocity, spring }, springy) {
-    if (!sticks) return "slips: friction is at its limit";
+    if (!sticks) return "foot slips: friction is at its limit";
     if (!springy) return "stopped: nothing throws it back";
-    if (velocity * spring <= 0) return "sticks: the spring recoils";
-    return `sticks: the spring ${spring > 0 ? "stretches" : "swings on"}`;
+    if (velocity * spring <= 0) return "foot sticks: spring recoils";
+    return `foot sticks: spring ${spring > 0 ? "stretches" : "swings on"}`;
   }
 
   // Lines of at most `room` pixels.
@@ -37,7 +37,7 @@ const lens = (() => {
   // Markup of the glass: `now` a row of the contact, `sign` the direction in which the contact point
   // came, `up` 1 on the floor and -1 under the table. Its middle is at (x, y), its radius `size`;
   // `tip` is the place of the contact; its words stand on that `side`, in a picture of this width.
-  function show({ now, first, sign, up, springy, x, y, size, tip, side, width }) {
+  function show({ lane, now, first, sign, up, springy, x, y, size, tip, side, width }) {
     const u = (value) => value * size;
     const place = (across, down) => [x + u(across), y + up * u(down)];
     const [, ground] = place(0, GROUND);
@@ -52,7 +52,8 @@ const lens = (() => {
     const middle = bottom[1] - up * u(UNDERSIDE);
     const edge = ground + up * 2 * size;
     const friction = -sign * FORCE * now.friction;
-    const below = ground + up * u(0.3);
+    const level = ground - up * u(0.05);
+    const side_of_foot = x + Math.sign(friction) * u(0.1);
     const beside = x + side * (size + 8);
     const said = lines(words(now, springy), (side > 0 ? width - beside : beside) - 6);
     const text = said.map((line, i) => `<text class="lens-words ${now.sticks ? "sticks" : ""}" x="${beside}"
@@ -61,7 +62,7 @@ const lens = (() => {
       ? `<path class="spring friction" d="${arrows.spring(...bottom, ...end, 0.09 * size)}"/>`
       : `<path class="strut" d="M${bottom}L${end}"/>`;
     const half = u(0.1);
-    const id = `lens-clip-${springy ? "lower" : "upper"}`;
+    const id = `lens-clip-${lane}`;
     return `<path class="leader" d="M${tip}L${x + (tip[0] < x ? -size : size) * 0.98},${y}"/>
       <clipPath id="${id}"><circle cx="${x}" cy="${y}" r="${size}"/></clipPath>
       <g clip-path="url(#${id})"><circle class="glass" cx="${x}" cy="${y}" r="${size}"/>
@@ -71,7 +72,7 @@ const lens = (() => {
       <path class="${now.sticks ? "holds" : "slides"}" d="M${x - half},${ground}v${-up * half}h${2 * half}v${up * half}Z"/>
       <path class="arrow velocity" d="${arrows.straight(bottom[0], bottom[1] - up * u(0.16),
         bottom[0] + u(sign * SPEED * now.velocity / (first || 1)), bottom[1] - up * u(0.16))}"/>
-      <path class="arrow friction" d="${arrows.straight(x, below, x + u(friction), below)}"/>
+      <path class="arrow friction" d="${arrows.straight(side_of_foot, level, side_of_foot + u(friction), level)}"/>
       </g><circle class="glass-rim" cx="${x}" cy="${y}" r="${size}"/>
       ${text.join("")}`;
   }

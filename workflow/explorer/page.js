@@ -214,7 +214,8 @@ const page = (() => {
     }
     element("stiffness_ratio").textContent = charts.number(stiffness_ratio(state.poisson_ratio), 3);
     element("counted").textContent = charts.number(100 / state.mass_ratio, 0);
-    element("given").textContent = `Ball of radius ${charts.number(state.radius)}\u00A0mm, gravity ` +
+    element("given").textContent =
+      `Ball of radius ${charts.number(state.radius)}\u00A0mm, drawn larger; gravity ` +
       `${charts.number(state.gravity)}\u00A0m/s\u00B2.`;
     root.dataset.beside = state.beside;
     element("no-ball").hidden = state.mass_ratio >= 2;

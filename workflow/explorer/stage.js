@@ -183,6 +183,9 @@ const stage = (() => {
     const under = scale * gap + 2 * radius; // the table of a lane, above its floor
     part("table").setAttribute("d", !gap ? "" :
       [upper, floor].map((low) => board(low - under - 5, low - under)).join(""));
+    part("table-word").textContent = gap ? "table" : "";
+    part("table-word").setAttribute("x", width - 12);
+    part("table-word").setAttribute("y", upper - under - 9);
     part("lower-words").setAttribute("y", upper + FLOOR + NAME - 6);
     const [end, line] = [width - 12, floor + BASE / 2];
     const metres = RULERS.find((one) => scale * one < width / 6) ?? RULERS.at(-1);
@@ -260,7 +263,7 @@ const stage = (() => {
     const y = floor_of(lane) - (frame.upper - NAME) / 2 + 2;
     const springy = lane === "lower" && shown.given.groups.zeta2 > 0;
     const up = bounce.wall === "table" ? -1 : 1;
-    return lens.show({ now, first: bounce.x, sign: bounce.sign, up, springy, x, y, size, tip, side,
+    return lens.show({ lane, now, first: bounce.x, sign: bounce.sign, up, springy, x, y, size, tip, side,
       width: frame.width });
   }
 
@@ -284,7 +287,7 @@ const stage = (() => {
     shown.bounces = bounces - (segment.kind === "bounce");
     part("moment").textContent = segment.kind === "bounce"
       ? `bounce ${bounces}, in slow motion`
-      : now === 0 ? "" : `in flight, ${SLOW_FLIGHT} times slower`;
+      : now === 0 ? "" : now >= shown.end - 1e-3 ? "the end" : `in flight, ${SLOW_FLIGHT} times slower`;
     svg.classList.toggle("waiting", now === 0);
   }
 

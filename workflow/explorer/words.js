@@ -53,8 +53,8 @@ const words = (() => {
   function bounced({ x, ball, after, contact: { style, state, rows } }, springy) {
     const share = x ? state.velocity / x : 0;
     const stuck = models.phases(rows).some(({ sticks }) => sticks);
-    const left = `at ${percent(Math.abs(share))} of its speed`;
-    const point = x * ball.up === 0 ? "nothing slid"
+    const left = `at ${percent(Math.abs(share))} of the speed it came with`;
+    const point = x * ball.up === 0 ? "the contact point came straight"
       : Math.abs(share) < models.STOPPED ? "the contact point stopped"
       : !stuck ? `the contact slipped throughout, and its point ${share > 0 ? "went on" : "turned back"}`
       : share > 0 ? `the spring let go while the contact point still went on, ${left}`
@@ -73,20 +73,29 @@ const words = (() => {
       return springy ? "The same throw twice. Only the lower ball has a spring along the surface."
         : "The same throw twice. Neither ball has a spring along the surface: both contacts are rigid.";
     }
-    if (over && springy && lower[0].ball.along > STILL && upper.at(-1).after.along > STILL) {
-      const turned = lower.findIndex(({ after }) => after.along < -STILL);
-      const thrown = lower.slice(0, turned + 1).every((one) => bounced(one, true).includes("recoiled"));
-      if (turned >= 0 && thrown && lower.at(-1).after.along < -STILL) {
-        return "The ball with the spring came back. At each bounce the spring stretched while the contact " +
-          "stuck, then recoiled and threw the contact point back. So the ball left with so much spin that " +
-          `friction at the ${lower[turned].wall} turned it round. Without the spring the contact point ` +
-          "stopped without rebound, and the ball went on.";
-      }
-    }
     const { wall } = lower[count - 1];
     const rigid = bounced(upper[count - 1], false);
-    if (!springy) return `Bounce ${count}, ${wall}. Both: ${rigid}`;
-    return `Bounce ${count}, ${wall}. With the spring: ${bounced(lower[count - 1], true)} Rigid: ${rigid}`;
+    const last = `After bounce ${count} (${wall}). ` + (springy
+      ? `With the spring: ${bounced(lower[count - 1], true)} Without: ${rigid}` : `Both: ${rigid}`);
+    return (over && ending(upper, lower, springy)) || last;
+  }
+
+  // What a throw forwards has come to, if the balls tell with spring and without what the spring does.
+  function ending(upper, lower, springy) {
+    const [rigid, own] = [upper, lower].map((bounces) => bounces.at(-1).after.along);
+    const stopped = upper.every(({ x, contact: { state } }) => x && state.velocity === 0);
+    if (lower[0].ball.along <= STILL || rigid <= STILL || !stopped) return "";
+    const end = "Without a spring the contact point stops without rebound, and the ball goes on.";
+    if (!springy) return `Both balls went on. ${end}`;
+    if (own > STILL) {
+      return "The ball with the spring went on, too. Timing decides: the spring turns the ball round only if " +
+        "the contact ends while the spring throws the contact point back hard enough.";
+    }
+    const turned = lower.findIndex(({ after }) => after.along < -STILL);
+    const thrown = lower.slice(0, turned + 1).every((one) => bounced(one, true).includes("recoiled"));
+    if (own >= -STILL || !thrown) return "";
+    return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
+      `back. That made the ball spin so fast that the ${lower[turned].wall} turned it round. ${end}`;
   }
 
   const listed = (outcomes) => outcomes.map((one) => one.name).join("; ");
