@@ -141,6 +141,56 @@ def test_the_story_of_a_throw_says_what_each_bounce_has_done(scripts):
     assert "Timing decides" in scripts.map(STORIES, [0.5])[0][4]
 
 
+TOLD = """([given, share]) => {
+  const groups = (x) => ({ x, mu: given.friction, beta: given.mass_ratio, zeta2: 1.5 * share,
+    e: given.restitution });
+  const bounces = (style) => flight.fly(given, (x) => models.contact(style, groups(x)))
+    .filter(({ kind }) => kind === "bounce");
+  const both = { upper: bounces("rigid"), lower: bounces("lumped") };
+  return [0, 1].map((over) => words.story(both, both.lower.length, over === 1, share > 0)).concat(
+    Object.values(both).map((all) => all.map((one) => [one.x, one.contact.state.velocity,
+      one.ball.along, one.after.along, Math.min(...one.contact.rows.map((row) => row.velocity)),
+      one.contact.rows.some((row) => row.sticks)])));
+}"""
+
+
+def test_a_story_is_true_of_every_throw(scripts):
+    rng, endings = np.random.default_rng(1983), {"came back": 0, "went on, too": 0, "Both balls": 0}
+    throws = [(one, share) for one in THROWS for share in (0.0, rng.uniform(0.05, 1), 1.0)]
+    for said, ending, upper, lower in scripts.map(TOLD, throws):
+        x, w, before, after, least, stuck = lower[-1]
+        own = said.partition(" Without: ")[0].partition("Both: ")
+        own = own[2] or own[0]
+        reversed_, swung = w < -0.0005 * x, least < -0.0005 * x
+        assert ("recoiled and threw" in own) == (stuck and reversed_ and "With the" in said)
+        assert ("and then forwards again" in own) == (stuck and swung and w > 0.0005 * x)
+        assert ("slipped throughout" in own) == (not stuck)
+        if abs(after) >= 0.05:
+            assert f"{abs(after):.1f} m/s {'forwards' if after > 0 else 'backwards'}" in own
+            assert ("turns round" in own) == (before * after < 0 and abs(before) >= 0.05)
+        for words in endings:
+            endings[words] += words in ending
+        if "came back" in ending:
+            # The rigid one goes on throughout; the other one turns once, after the first bounce.
+            ways = [one[3] > 0 for one in lower]
+            assert all(one[3] > 0 for one in upper) and ways[0] and not ways[-1]
+            assert ways == sorted(ways, reverse=True) and all(one[1] < 0 for one in lower)
+    assert min(endings.values()) > 0, endings
+
+
+def test_a_show_ends_soon(scripts):
+    """However small gravity is, or the velocity towards a wall."""
+    slow = {"angle": 89.9, "speed": 0.5, "spin": 0, "friction": 0.8, "mass_ratio": 3.5}
+    slow |= {"restitution": 0.01, "table": 2, "radius": 0.025}
+    throws = [slow | {"gravity": g} for g in (0, 0.1)]
+    throws += [one | {"angle": 10, "speed": 12, "restitution": 1, "table": 0} for one in throws]
+    longest = (
+        "(one) => flight.fly(one, (x) => ({ state: solver.rebound(x, 3.5, 1.5, one.restitution)"
+    )
+    for times in scripts.map(f"{longest} }})).map((part) => part.time ?? 0)", throws):
+        assert max(times) <= 6 and len(times) > 2
+
+
 # What is drawn of a throw at a time of its show, a share of the first bounce and the flight before
 # it, and what the microscope shows of that bounce.
 SHOWN = """([given, styles, share]) => {

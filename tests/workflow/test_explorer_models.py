@@ -211,7 +211,8 @@ def test_curves_against_incidence_are_those_of_the_package(view, beta, zeta2, e,
 
 
 SAVED = """(impact, angle) => {
-  const styles = models.chosen(impact, models.TOGGLES), state = { angle, poisson_ratio: 0.3 };
+  const styles = models.chosen(impact, models.TOGGLES);
+  const state = { angle, poisson_ratio: 0.3, spin: 40 };
   const drawn = charts.incidence({ setAttribute() {} }, 500, impact, "forces", styles, 13);
   return files.csv(impact, state, models.outcomes(styles, impact), drawn);
 }"""

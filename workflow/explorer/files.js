@@ -20,6 +20,10 @@ const files = (() => {
       ["mass ratio m2/m1 [1]", impact.beta],
       ["stiffness ratio zeta^2 [1]", impact.zeta2],
       ["incidence v1(0)/(mu v2(0)) [1]", impact.x],
+      ["tangential compliance over that of the body [1]", state.compliance],
+      ["speed [m/s]", state.speed],
+      ["spin, clockwise [rad/s]", state.spin],
+      ["radius [mm]", state.radius],
     ];
     const said = found.flatMap(({ name, velocity, peak_friction, dissipation }) => [
       [`${name}: v1(tf)/(mu v2(0)) [1]`, velocity],

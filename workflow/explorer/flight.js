@@ -10,6 +10,7 @@ const flight = (() => {
   const SLOWEST = 0.3; // m/s towards the surface; slower bounces are left out
   const SLIDES = 0.3; // s, shown of a ball that does not bounce off
   const LONGEST = 0.5; // s, of a flight without gravity that does not end at a wall, or begins there
+  const MOST = 6; // s, of any flight that is shown to its end
   const RADIANS = Math.PI / 180;
 
   // Velocities of the ball just before the first bounce.
@@ -83,6 +84,10 @@ const flight = (() => {
       const { wall, time } = next(ball, gap);
       parts.push({ kind: "flight", ball, time });
       if (!wall) return parts;
+      if (count && time > MOST) {
+        parts.at(-1).time = MOST;
+        return parts;
+      }
       ball = later(ball, time);
       if (wall === "floor") ball.height = 0;
       if (count === 0) Object.assign(ball, first(given));
@@ -98,7 +103,8 @@ const flight = (() => {
       }
     }
     const { wall, time } = next(ball, gap);
-    parts.push({ kind: "flight", ball, time: wall ? (gap ? 0.9 : 0.5) * time : time });
+    const shown = wall ? (gap ? 0.9 : 0.5) * time : time;
+    parts.push({ kind: "flight", ball, time: Math.min(shown, MOST) });
     return parts;
   }
 

@@ -15,29 +15,23 @@ const lens = (() => {
   const HATCH = 0.26;
   const UNDERSIDE = 1.7; // radius of the ball in the glass
   const LINE = 17; // px between two lines of words
-  const LETTER = 7.2; // px, of a narrow picture
 
-  // What the contact does now.
-  function words({ sticks, velocity, spring }, springy) {
-    if (!sticks) return "foot slips: friction is at its limit";
+  const SLIDES = 1e-9; // incidence from which on something does
+
+  // What the contact does now; `first` is its incidence.
+  function words({ sticks, velocity, spring }, springy, first) {
+    if (first < SLIDES) return "nothing slides";
+    if (!sticks) return "slips: friction at its limit";
     if (!springy) return "stopped: nothing throws it back";
-    if (velocity * spring <= 0) return "foot sticks: spring recoils";
-    return `foot sticks: spring ${spring > 0 ? "stretches" : "swings on"}`;
-  }
-
-  // Lines of at most `room` pixels.
-  function lines(text, room) {
-    return text.split(" ").reduce((list, word) => {
-      const longer = `${list.at(-1)} ${word}`.trim();
-      const fits = longer.length * LETTER <= room && !list.at(-1).endsWith(":");
-      return fits ? [...list.slice(0, -1), longer] : [...list, word];
-    }, [""]).filter(Boolean);
+    if (velocity * spring <= 0) return "sticks: spring recoils";
+    return `sticks: spring ${spring > 0 ? "stretches" : "swings on"}`;
   }
 
   // Markup of the glass: `now` a row of the contact, `sign` the direction in which the contact point
   // came, `up` 1 on the floor and -1 under the table. Its middle is at (x, y), its radius `size`;
-  // `tip` is the place of the contact; its words stand on that `side`, in a picture of this width.
-  function show({ lane, now, first, sign, up, springy, x, y, size, tip, side, width }) {
+  // `tip` is the place of the contact; its words stand on that `side`,
+  // if they are not said elsewhere.
+  function show({ lane, now, first, sign, up, springy, x, y, size, tip, side, worded }) {
     const u = (value) => value * size;
     const place = (across, down) => [x + u(across), y + up * u(down)];
     const [, ground] = place(0, GROUND);
@@ -55,7 +49,7 @@ const lens = (() => {
     const level = ground - up * u(0.05);
     const side_of_foot = x + Math.sign(friction) * u(0.1);
     const beside = x + side * (size + 8);
-    const said = lines(words(now, springy), (side > 0 ? width - beside : beside) - 6);
+    const said = words(now, springy, first).split(/(?<=:) /);
     const text = said.map((line, i) => `<text class="lens-words ${now.sticks ? "sticks" : ""}" x="${beside}"
       y="${y + 5 + LINE * (i - (said.length - 1) / 2)}" text-anchor="${side > 0 ? "start" : "end"}">${line}</text>`);
     const joint = springy
@@ -74,7 +68,7 @@ const lens = (() => {
         bottom[0] + u(sign * SPEED * now.velocity / (first || 1)), bottom[1] - up * u(0.16))}"/>
       <path class="arrow friction" d="${arrows.straight(side_of_foot, level, side_of_foot + u(friction), level)}"/>
       </g><circle class="glass-rim" cx="${x}" cy="${y}" r="${size}"/>
-      ${text.join("")}`;
+      ${worded ? text.join("") : ""}`;
   }
 
   return { show, words };

@@ -14,6 +14,8 @@ const page = (() => {
     view: "velocity", models: models.TOGGLES,
   };
   const ALWAYS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]; // in the address
+  // Less is none: a stiffer spring has too many phases, and a ball would fall for too long.
+  const [LEAST, LEAST_GRAVITY] = [0.005, 0.1];
   const SETTLED = 300; // ms without a change, after which the address says the state
   const GLIDE = 220; // ms from the frame of aiming to that of the throw
   const TOLD = 5000; // ms that a message stays
@@ -108,10 +110,11 @@ const page = (() => {
     const { friction: mu, restitution: e, mass_ratio: beta } = state;
     const springs = state.beside === "rigid";
     const own = stiffness_ratio(state.poisson_ratio);
-    const groups = { mu, e, beta, zeta2: own * (springs ? state.compliance : 1) };
+    const groups = { mu, e, beta, zeta2: springs ? own * (state.compliance < LEAST ? 0 : state.compliance) : own };
     const radius = state.radius / 1000;
     const table = state.table > 4 * radius ? state.table : 0;
-    return { ...state, radius, table, groups };
+    const gravity = state.gravity < LEAST_GRAVITY ? 0 : state.gravity;
+    return { ...state, radius, table, gravity, groups };
   }
 
   const continuum_style = () => models.style_of(state.restitution, state.loss);
@@ -242,10 +245,12 @@ const page = (() => {
 
   function show_names() {
     const name = models.NAMES[continuum_style()];
-    const springs = ["contact without a spring", impact.zeta2 ? "contact with a spring" : "spring taken away"];
+    const springs = ["contact without a spring", impact.zeta2 ? "contact with a spring" : "its spring is taken away"];
+    const short_names = state.beside === "rigid" ? ["no spring", impact.zeta2 ? "spring" : "no spring"]
+      : ["lumped", "continuum"];
     const lanes = state.beside === "rigid" ? springs : [models.NAMES.lumped, name];
     ["upper", "lower"].forEach((lane, i) => {
-      const short = innerWidth < 600 ? lanes[i].replace(/^the paper\u2019s |^contact |, .*| model/g, "") : lanes[i];
+      const short = innerWidth < 600 ? short_names[i] : lanes[i];
       element(`stage-${lane}-name`).textContent = `\u25CF ${short}:`;
       element(`patch-${lane}-name`).textContent = `${short}: `;
     });
@@ -487,7 +492,10 @@ const page = (() => {
       refresh();
       release(from);
     });
-    handle.addEventListener("pointercancel", () => stage.hold(false));
+    handle.addEventListener("pointercancel", () => {
+      stage.hold(false);
+      refresh();
+    });
   }
   on_hand("grasp", (event) => stage.aim_at(event, "lower"), glide_and_throw);
   on_hand("other-grasp", (event) => stage.aim_at(event, "upper"), glide_and_throw);
@@ -612,7 +620,9 @@ const page = (() => {
   const about_impact = () =>
     `θ = ${charts.number(state.angle)}°, µ = ${charts.number(state.friction)}, ` +
     `e = ${charts.number(state.restitution)}, ν = ${charts.number(state.poisson_ratio, 3)}, ` +
-    `m₂/m₁ = ${charts.number(state.mass_ratio)}`;
+    `m₂/m₁ = ${charts.number(state.mass_ratio)}, compliance ${charts.number(state.compliance)}, ` +
+    `${charts.number(state.speed)} m/s, ${charts.number(state.spin)} rad/s` +
+    (state.table ? `, table at ${charts.number(state.table)} m` : "");
 
   const ACTIONS = {
     dark() {

@@ -341,7 +341,7 @@ const solver = (() => {
     const end = 1 + e;
     const stop = Math.min(x / beta, end); // impulse at which the contact point has come to rest
     const halt = stop <= 1 ? time(Math.acos(1 - stop), e, false)
-      : time(Math.acos(Math.max((stop - 1) / e, 0)), e, true);
+      : time(Math.acos(Math.min((stop - 1) / e, 1)), e, true);
     const grid = Array.from({ length: samples }, (_, i) => (i / (samples - 1)) * end);
     const instants = [...grid.filter((t) => t !== halt), halt].sort((a, b) => a - b);
     return instants.map((t) => {

@@ -247,12 +247,15 @@ const stage = (() => {
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
     const arrow = bounce && !(row && with_springs()) ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
     part(`${lane}-slip`).setAttribute("d", arrow);
-    part(`${lane}-numbers`).textContent = speed_words(ball);
+    part(`${lane}-numbers`).textContent = row && with_springs() && narrow()
+      ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
     part(`${lane}-lens`).innerHTML = row && with_springs() ? lens_of(lane, bounce, row, [x, foot]) : "";
     if (!with_springs()) patch_of(lane, bounce, row);
   }
 
   // Both lanes have one contact point, with a spring or without: the scene of the lower lane's spring.
+  const springy = (lane) => lane === "lower" && shown.given.groups.zeta2 > 0;
+  const narrow = () => frame.width < 480; // then words stand above the ball
   const with_springs = () => shown.styles.lower === "lumped";
 
   // The magnifying glass beside the ball, where there is more room.
@@ -261,10 +264,9 @@ const stage = (() => {
     const side = tip[0] < frame.width / 2 ? 1 : -1;
     const x = tip[0] + side * (frame.radius + 14 + size);
     const y = floor_of(lane) - (frame.upper - NAME) / 2 + 2;
-    const springy = lane === "lower" && shown.given.groups.zeta2 > 0;
     const up = bounce.wall === "table" ? -1 : 1;
-    return lens.show({ lane, now, first: bounce.x, sign: bounce.sign, up, springy, x, y, size, tip, side,
-      width: frame.width });
+    return lens.show({ lane, now, first: bounce.x, sign: bounce.sign, up, springy: springy(lane), x, y,
+      size, tip, side, worded: !narrow() });
   }
 
   // Pixels for 1 m/s, of arrows.

@@ -5,6 +5,8 @@ const words = (() => {
   const way = (sign) => (sign > 0 ? "forwards" : "backwards");
 
   const STILL = 0.005; // m/s
+  const SLOW = 0.05; // m/s: less is 0.0 where one digit is shown
+  const TINY = 1e-9; // incidence of a contact point that rolls, but for rounding
 
   function percent(share) {
     return `${(100 * share).toFixed(share < 0.095 ? 1 : 0)}\u00A0%`;
@@ -51,18 +53,20 @@ const words = (() => {
 
   // The contact point of one bounce, and what follows for the ball.
   function bounced({ x, ball, after, contact: { style, state, rows } }, springy) {
-    const share = x ? state.velocity / x : 0;
+    const share = x > TINY ? state.velocity / x : 0;
+    const swung = rows.some(({ velocity }) => velocity < -models.STOPPED * x);
     const stuck = models.phases(rows).some(({ sticks }) => sticks);
     const left = `at ${percent(Math.abs(share))} of the speed it came with`;
-    const point = x * ball.up === 0 ? "the contact point came straight"
+    const point = x <= TINY ? "nothing slid"
       : Math.abs(share) < models.STOPPED ? "the contact point stopped"
       : !stuck ? `the contact slipped throughout, and its point ${share > 0 ? "went on" : "turned back"}`
-      : share > 0 ? `the spring let go while the contact point still went on, ${left}`
+      : share > 0 && swung ? `the spring threw the contact point back and then forwards again, ${left}`
+      : share > 0 ? `the contact ended while the contact point still went on, ${left}`
       : `the spring recoiled and threw the contact point back, ${left}`;
-    const turned = ball.along * after.along < 0;
-    const goes = Math.abs(after.along) < STILL ? "stands still along the floor"
-      : `${turned ? "turns round" : after.along < 0 ? "comes back" : "goes on"}, ` +
-        `${Math.abs(after.along).toFixed(1)} m/s ${way(after.along)}`;
+    const verb = Math.abs(ball.along) < SLOW ? "sets off" : ball.along * after.along < 0 ? "turns round"
+      : after.along < 0 ? "comes back" : "goes on";
+    const goes = Math.abs(after.along) < SLOW ? "hardly moves along the surface"
+      : `${verb}, ${Math.abs(after.along).toFixed(1)} m/s ${way(after.along)}`;
     return `${point}; the ball ${goes}.`;
   }
 
@@ -82,18 +86,20 @@ const words = (() => {
 
   // What a throw forwards has come to, if the balls tell with spring and without what the spring does.
   function ending(upper, lower, springy) {
-    const [rigid, own] = [upper, lower].map((bounces) => bounces.at(-1).after.along);
-    const stopped = upper.every(({ x, contact: { state } }) => x && state.velocity === 0);
-    if (lower[0].ball.along <= STILL || rigid <= STILL || !stopped) return "";
+    const forwards = ({ after }) => after.along > SLOW;
+    const stopped = upper.every(({ contact: { state } }) => state.velocity === 0);
+    if (lower[0].ball.along <= SLOW || !upper.every(forwards) || !stopped) return "";
     const end = "Without a spring the contact point stops without rebound, and the ball goes on.";
     if (!springy) return `Both balls went on. ${end}`;
-    if (own > STILL) {
+    if (lower.every(forwards)) {
       return "The ball with the spring went on, too. Timing decides: the spring turns the ball round only if " +
         "the contact ends while the spring throws the contact point back hard enough.";
     }
-    const turned = lower.findIndex(({ after }) => after.along < -STILL);
-    const thrown = lower.slice(0, turned + 1).every((one) => bounced(one, true).includes("recoiled"));
-    if (own >= -STILL || !thrown) return "";
+    // The spin of an earlier bounce turns it, once.
+    const turned = lower.findIndex((one) => !forwards(one));
+    const thrown = lower.every((one) => bounced(one, true).includes("recoiled"));
+    const back = lower.slice(turned).every(({ after }) => after.along < -SLOW);
+    if (turned === 0 || !thrown || !back) return "";
     return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
       `back. That made the ball spin so fast that the ${lower[turned].wall} turned it round. ${end}`;
   }
