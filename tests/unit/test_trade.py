@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from planarimpact import models
+from planarimpact import continuum, models
 from stronge1994 import tables
 from stronge1994.figures.trade import curves as trade
 from stronge1994.pages import which_model
@@ -65,6 +65,17 @@ def test_the_largest_error_is_found_where_it_is_beside_a_kink(model):
     )
     assert kinks > 2 * evenly
     assert everywhere <= 1.1 * kinks
+
+
+def test_the_table_has_the_largest_error_with_kinks():
+    inelastic = {"tolerance": 1e-3, "tolerances": []}
+    table = trade.curves(3.5, 1.21, [0, 8], 81, [1.0, 0.8], 1e-3, [], [], [], inelastic, [1], 1e-9)
+    x = np.append(np.linspace(0, 8, 81), [1.21, 3.5, 5.79, 6.3, 7.0])
+    for name, e, loss in (("lumped", 1.0, ""), ("lumped.hysteretic", 0.8, "viscous")):
+        (own,) = tables.where(table, model=name, e=e, loss=loss).nonzero()[0]
+        exact = continuum.rebound(x, 3.5, 1.21, e, loss=loss or None, tolerance=1e-3).velocity
+        gap = np.abs(models.rebound(name, x, 3.5, 1.21, e).velocity - exact).max()
+        assert abs(table[MAX].iloc[own] - gap) < 2e-3
 
 
 def row(model, error, e=1.0, loss="", build=None, times=(None, None), scatter=0.02, **settings):
