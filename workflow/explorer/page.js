@@ -17,7 +17,6 @@ const page = (() => {
   // Less is none: a stiffer spring has too many phases, and a ball would fall for too long.
   const [LEAST, LEAST_GRAVITY] = [0.005, 0.1];
   const SETTLED = 300; // ms without a change, after which the address says the state
-  const GLIDE = 220; // ms from the frame of aiming to that of the throw
   const TOLD = 5000; // ms that a message stays
   const INVITATION = "Press Throw, or drag a ball";
   const INTENT = 8; // pixels that a finger moves before its direction counts
@@ -433,20 +432,6 @@ const page = (() => {
     play(true);
   }
 
-  // Before a throw the frame glides from the one in which the ball was aimed.
-  function glide_and_throw(from) {
-    if (still.matches || !from) return throw_ball();
-    const begun = performance.now();
-    const turn = (time) => {
-      const share = Math.min(Math.max((time - begun) / GLIDE, 0), 1);
-      stage.glide(from, share * share * (3 - 2 * share));
-      show_time();
-      if (share < 1) requestAnimationFrame(turn);
-      else throw_ball();
-    };
-    requestAnimationFrame(turn);
-  }
-
   function go_to(time) {
     now = Math.min(Math.max(time, 0), stage.duration());
     play(false);
@@ -487,18 +472,18 @@ const page = (() => {
       if (!handle.hasPointerCapture(event.pointerId)) return;
       take(move(event));
     });
-    handle.addEventListener("pointerup", () => {
-      const from = stage.hold(false);
-      refresh();
-      release(from);
-    });
-    handle.addEventListener("pointercancel", () => {
+    const let_go = () => {
       stage.hold(false);
       refresh();
+    };
+    handle.addEventListener("pointerup", () => {
+      let_go();
+      release();
     });
+    handle.addEventListener("pointercancel", let_go);
   }
-  on_hand("grasp", (event) => stage.aim_at(event, "lower"), glide_and_throw);
-  on_hand("other-grasp", (event) => stage.aim_at(event, "upper"), glide_and_throw);
+  on_hand("grasp", (event) => stage.aim_at(event, "lower"), throw_ball);
+  on_hand("other-grasp", (event) => stage.aim_at(event, "upper"), throw_ball);
   on_hand("knob", (event) => ({ spin: Math.round(stage.spin_at(event) / 5) * 5 }), () => {});
   const invite = (text) => (stage.part("invitation").textContent = text);
   stage.part("grasp").addEventListener("focus", ({ target }) => {

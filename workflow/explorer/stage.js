@@ -7,7 +7,6 @@ const stage = (() => {
   const SLOW_FLIGHT = 3; // times slower than in nature
   const FIRST_CONTACT = 1.5; // s that one t_c takes in the first bounce, and in the others
   const LATER_CONTACT = 1;
-  const FLASH = 0.04; // s between two images of a ball, at least
   const SHOWN = 3; // flights that the frame shows; later ones may leave it
   const STEP = 0.012; // s between two corners of a path
   const RADIANS_A_SECOND = 80; // of spin that turns the knob by one radian
@@ -24,7 +23,6 @@ const stage = (() => {
   let shown; // what `prepare` was given, and what follows from it
   let frame; // of the picture: see `framed`
   let held; // the frame while the ball is aimed
-  let aimed_frame; // the one that shows its throw
 
   // ---- the show in time ---------------------------------------------------------------------
 
@@ -46,7 +44,7 @@ const stage = (() => {
   // The show ends with the last flight, or when a ball reaches the edge of the frame.
   function ended() {
     const last = shown.segments.at(-1);
-    const leaving = Object.entries(shown.traces).map(([lane, { corners }]) =>
+    const leaving = Object.entries(shown.traces).map(([lane, corners]) =>
       corners.find((corner) => {
         const [x] = place_of(corner, lane);
         return x < frame.radius || x > frame.width - frame.radius;
@@ -129,40 +127,25 @@ const stage = (() => {
 
   // ---- drawing ------------------------------------------------------------------------------
 
-  // Corners of the path of a lane and the instants of its images, with the time of the show.
-  function traced(parts, list, flash) {
-    const corners = [];
-    const images = [];
-    let passed = 0;
-    parts.forEach((one, i) => {
-      if (one.kind !== "flight") return;
+  // Corners of the path of a lane, with the time of the show.
+  function traced(parts, list) {
+    return parts.flatMap((one, i) => {
+      if (one.kind !== "flight") return [];
       const { start, length } = list[i];
       const steps = Math.max(Math.ceil(one.time / STEP), 1);
-      for (let k = 0; k <= steps; k++) {
-        corners.push({ now: start + (length * k) / steps,
-          ...flight.later(one.ball, (one.time * k) / steps) });
-      }
-      for (; passed < one.time && flash < Infinity; passed += flash) {
-        images.push({ now: start + SLOW_FLIGHT * passed, ...flight.later(one.ball, passed) });
-      }
-      passed = Math.max(passed - one.time, 0);
+      return Array.from({ length: steps + 1 }, (_, k) => ({
+        now: start + (length * k) / steps, ...flight.later(one.ball, (one.time * k) / steps) }));
     });
-    return { corners, images };
   }
 
   // `styles` are the models of the lanes; one that has no answer has no flights.
   function prepare(given, flights, styles) {
     const gap = given.table ? given.table - 2 * given.radius : 0;
     const list = segments(flights);
-    shown = { given, flights, styles, segments: list, drawn: {} };
-    aimed_frame = framed(flights, gap);
-    // Under a table the paths cross, and images would hide them.
-    const { radius, scale } = aimed_frame;
-    const flash = gap ? Infinity
-      : Math.max(FLASH, (1.5 * radius) / scale / Math.max(given.speed, 1));
+    shown = { given, flights, styles, segments: list };
     shown.traces = Object.fromEntries(
-      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list, flash)]));
-    put_frame(held ?? aimed_frame);
+      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list)]));
+    put_frame(held ?? framed(flights, gap));
     for (const lane of LANES) {
       part(lane).setAttribute("class", `lane ${styles[lane]} ${flights[lane] ? "" : "absent"}`);
       part(`${lane}-words`).setAttribute("class", `lane-name ${styles[lane]}`);
@@ -173,7 +156,6 @@ const stage = (() => {
   // Draws what stands still in a frame.
   function put_frame(new_frame) {
     frame = new_frame;
-    shown.drawn = {};
     shown.end = ended();
     const { width, height, radius, floor, upper, scale, gap } = frame;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -195,13 +177,6 @@ const stage = (() => {
     part("metre").setAttribute("y", line + 4);
     for (const name of ["moment", "invitation"]) part(name).setAttribute("y", line + 5);
     show_hand();
-  }
-
-  // Between the frame in which the ball was aimed and the one that shows its throw.
-  function glide(from, share) {
-    const mixed = { ...aimed_frame };
-    for (const name in mixed) mixed[name] = from[name] + share * (aimed_frame[name] - from[name]);
-    put_frame(share < 1 ? mixed : aimed_frame);
   }
 
   // Numbers beside the name of each lane.
@@ -227,25 +202,15 @@ const stage = (() => {
     const size = radius / 20;
     part(`${lane}-ball`).setAttribute("transform",
       `translate(${x.toFixed(1)},${y.toFixed(1)}) rotate(${degrees.toFixed(1)}) scale(${size})`);
-    const { corners, images } = shown.traces[lane];
+    const corners = shown.traces[lane];
     const until = corners.findIndex((corner) => corner.now > now);
     const behind = (until < 0 ? corners : corners.slice(0, until)).map((one) => place_of(one, lane));
     behind.push([x, y]);
     part(`${lane}-path`).setAttribute("d",
       `M${behind.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join("L")}`);
-    const count = images.filter((image) => image.now <= now).length;
-    if (shown.drawn[lane] !== count) {
-      shown.drawn[lane] = count;
-      part(`${lane}-images`).setAttribute("d", images.slice(0, count).map((image) => {
-        const [a, b] = place_of(image, lane);
-        const [u, v] = [radius * Math.sin(image.turn), -radius * Math.cos(image.turn)];
-        return `M${a - radius},${b}a${radius},${radius} 0 1 0 ${2 * radius},0a${radius},${radius}` +
-          ` 0 1 0 ${-2 * radius},0M${(a - u).toFixed(1)},${(b - v).toFixed(1)}` +
-          `L${(a + u).toFixed(1)},${(b + v).toFixed(1)}`;
-      }).join(""));
-    }
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
-    const arrow = bounce && !(row && with_springs()) ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
+    const arrow = bounce && !(row && with_springs())
+      ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
     part(`${lane}-slip`).setAttribute("d", arrow);
     part(`${lane}-numbers`).textContent = row && with_springs() && narrow()
       ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
@@ -352,12 +317,10 @@ const stage = (() => {
     return RADIANS_A_SECOND * (turn + 2 * Math.PI * whole);
   }
 
-  // Keeps the frame while the ball is aimed; lets it go, and returns it.
+  // Keeps the frame while the ball is aimed, and lets it go.
   function hold(on) {
-    const before = held;
     held = on ? frame : undefined;
     if (!on) part("band").setAttribute("d", "");
-    return before;
   }
 
   // The time at which the first bounce of the continuum has a slipping edge that is easy to see.
@@ -379,5 +342,5 @@ const stage = (() => {
   // Bounces that are over, and whether the show is.
   const progress = (now) => ({ bounces: shown.bounces, over: now >= shown.end - 1e-3 });
 
-  return { progress, prepare, show, duration, first_bounce, aim_at, spin_at, hold, glide, micro_slip, part };
+  return { progress, prepare, show, duration, first_bounce, aim_at, spin_at, hold, micro_slip, part };
 })();

@@ -53,8 +53,8 @@ def _lumped(limits: Mapping[str, Sequence[float]]) -> list[Answer]:
     draw = {name: rng.uniform(limit[0], limit[1], COUNT) for name, limit in limits.items()}
     nu = draw["poisson_ratio"]
     incidence = np.tan(np.radians(draw["angle"])) / draw["friction"]
-    zeta2 = draw["compliance"] * (2 - nu) / (2 * (1 - nu))
-    groups = [incidence, draw["mass_ratio"], zeta2, draw["restitution"]]
+    stiffness_ratio = draw["compliance"] * (2 - nu) / (2 * (1 - nu))
+    groups = [incidence, draw["mass_ratio"], stiffness_ratio, draw["restitution"]]
     for beta, zeta2 in ((3.5, 1.25), (10.0, 1.0)):
         for e in (0.0, 0.3, 0.9, 1.0):
             limit = float(lumped.slip_throughout_limit(beta, zeta2, e))
