@@ -11,7 +11,7 @@ const lens = (() => {
   const PRESSED = 0.17; // of that at the largest compression
   const DEFLECTION = 0.4; // a deflection of 1
   const FORCE = 0.75; // of friction at the largest normal force
-  const SPEED = 0.6; // of the contact point as it came
+  const SPEED = 0.6; // of the fastest contact point of the throw
   const HATCH = 0.26;
   const UNDERSIDE = 1.7; // radius of the ball in the glass
   const LINE = 17; // px between two lines of words
@@ -22,7 +22,7 @@ const lens = (() => {
   function words({ sticks, velocity, spring }, springy, first) {
     if (first < SLIDES) return "nothing slides";
     if (!sticks) return "slips: friction at its limit";
-    if (!springy) return "stopped: nothing throws it back";
+    if (!springy) return "point stopped: nothing throws it back";
     if (velocity * spring <= 0) return "sticks: spring recoils";
     return `sticks: spring ${spring > 0 ? "stretches" : "swings on"}`;
   }
@@ -31,7 +31,8 @@ const lens = (() => {
   // came, `up` 1 on the floor and -1 under the table. Its middle is at (x, y), its radius `size`;
   // `tip` is the place of the contact; its words stand on that `side`,
   // if they are not said elsewhere.
-  function show({ lane, now, first, sign, up, springy, x, y, size, tip, side, worded }) {
+  // `speed` is mu v2(0) of this bounce over the speed of the fastest contact point of the throw.
+  function show({ lane, now, first, speed, sign, up, springy, x, y, size, tip, side, worded }) {
     const u = (value) => value * size;
     const place = (across, down) => [x + u(across), y + up * u(down)];
     const [, ground] = place(0, GROUND);
@@ -65,7 +66,7 @@ const lens = (() => {
       <circle class="under" cx="${bottom[0]}" cy="${middle}" r="${u(UNDERSIDE)}"/>${joint}
       <path class="${now.sticks ? "holds" : "slides"}" d="M${x - half},${ground}v${-up * half}h${2 * half}v${up * half}Z"/>
       <path class="arrow velocity" d="${arrows.straight(bottom[0], bottom[1] - up * u(0.16),
-        bottom[0] + u(sign * SPEED * now.velocity / (first || 1)), bottom[1] - up * u(0.16))}"/>
+        bottom[0] + u(sign * SPEED * now.velocity * speed), bottom[1] - up * u(0.16))}"/>
       <path class="arrow friction" d="${arrows.straight(side_of_foot, level, side_of_foot + u(friction), level)}"/>
       </g><circle class="glass-rim" cx="${x}" cy="${y}" r="${size}"/>
       ${worded ? text.join("") : ""}`;

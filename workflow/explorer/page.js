@@ -218,7 +218,7 @@ const page = (() => {
     element("counted").textContent = charts.number(100 / state.mass_ratio, 0);
     element("given").textContent =
       `Ball of radius ${charts.number(state.radius)}\u00A0mm, drawn larger; gravity ` +
-      `${charts.number(state.gravity)}\u00A0m/s\u00B2.`;
+      (state.gravity ? `${charts.number(state.gravity)}\u00A0m/s\u00B2.` : "is left out.");
     root.dataset.beside = state.beside;
     element("no-ball").hidden = state.mass_ratio >= 2;
     for (const name of CHOICES) element(name).value = state[name];
@@ -350,7 +350,10 @@ const page = (() => {
       state[name] = Math.min(Math.max(value, least), most);
     }
     element("refused").textContent = "";
-    if (!playing) now = 0;
+    if (!playing) {
+      now = 0;
+      play(false);
+    }
     changed();
   }
 

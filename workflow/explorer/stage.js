@@ -4,7 +4,8 @@
 // above its own floor and below the name of its model; and what the contact of each looks like. The
 // time of the show, in seconds, stretches each contact.
 const stage = (() => {
-  const SLOW_FLIGHT = 3; // times slower than in nature
+  const SLOW_FLIGHT = 3; // times slower than in nature, and under a table, where flights are short
+  const SLOW_BELOW = 10;
   const FIRST_CONTACT = 1.5; // s that one t_c takes in the first bounce, and in the others
   const LATER_CONTACT = 1;
   const SHOWN = 3; // flights that the frame shows; later ones may leave it
@@ -14,6 +15,7 @@ const stage = (() => {
   // which the scale stands.
   const [NAME, FLOOR, BASE] = [24, 9, 24];
   const RULERS = [5, 1, 0.5, 0.1]; // m; the first that takes at most a sixth of the width
+  const slower = () => (shown.given.table ? SLOW_BELOW : SLOW_FLIGHT);
   const LANES = ["upper", "lower"];
   const LENS = 64; // px, radius of the magnifying glass at most
   const element = (id) => document.getElementById(id);
@@ -34,7 +36,7 @@ const stage = (() => {
     first.forEach((one, i) => {
       const end = Math.max(one.contact?.end ?? 0, second?.[i]?.contact?.end ?? 0);
       const pace = list.some(({ kind }) => kind === "bounce") ? LATER_CONTACT : FIRST_CONTACT;
-      const length = one.kind === "flight" ? SLOW_FLIGHT * one.time : pace * end;
+      const length = one.kind === "flight" ? slower() * one.time : pace * end;
       list.push({ kind: one.kind, index: i, start, length, end });
       start += length;
     });
@@ -141,8 +143,10 @@ const stage = (() => {
   // `styles` are the models of the lanes; one that has no answer has no flights.
   function prepare(given, flights, styles) {
     const gap = given.table ? given.table - 2 * given.radius : 0;
-    const list = segments(flights);
-    shown = { given, flights, styles, segments: list };
+    shown = { given, flights, styles };
+    const list = (shown.segments = segments(flights));
+    const speeds = Object.values(flights).flat().map(({ x, unit }) => (x ?? 0) * unit || 0);
+    shown.fastest = Math.max(...speeds) || 1;
     shown.traces = Object.fromEntries(
       Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list)]));
     put_frame(held ?? framed(flights, gap));
@@ -230,7 +234,7 @@ const stage = (() => {
     const x = tip[0] + side * (frame.radius + 14 + size);
     const y = floor_of(lane) - (frame.upper - NAME) / 2 + 2;
     const up = bounce.wall === "table" ? -1 : 1;
-    return lens.show({ lane, now, first: bounce.x, sign: bounce.sign, up, springy: springy(lane), x, y,
+    return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign, up, springy: springy(lane), x, y,
       size, tip, side, worded: !narrow() });
   }
 
@@ -254,7 +258,7 @@ const stage = (() => {
     shown.bounces = bounces - (segment.kind === "bounce");
     part("moment").textContent = segment.kind === "bounce"
       ? `bounce ${bounces}, in slow motion`
-      : now === 0 ? "" : now >= shown.end - 1e-3 ? "the end" : `in flight, ${SLOW_FLIGHT} times slower`;
+      : now === 0 ? "" : now >= shown.end - 1e-3 ? "the end" : `in flight, ${slower()} times slower`;
     svg.classList.toggle("waiting", now === 0);
   }
 

@@ -89,7 +89,7 @@ const words = (() => {
     const forwards = ({ after }) => after.along > SLOW;
     const stopped = upper.every(({ contact: { state } }) => state.velocity === 0);
     if (lower[0].ball.along <= SLOW || !upper.every(forwards) || !stopped) return "";
-    const end = "Without a spring the contact point stops without rebound, and the ball goes on.";
+    const end = "Without a spring the contact point stops, and the ball goes on.";
     if (!springy) return `Both balls went on. ${end}`;
     if (lower.every(forwards)) {
       return "The ball with the spring went on, too. Timing decides: the spring turns the ball round only if " +
@@ -101,7 +101,8 @@ const words = (() => {
     const back = lower.slice(turned).every(({ after }) => after.along < -SLOW);
     if (turned === 0 || !thrown || !back) return "";
     return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
-      `back. That made the ball spin so fast that the ${lower[turned].wall} turned it round. ${end}`;
+      `back. So the ball spun fast, its ${lower[turned].wall === "table" ? "highest" : "lowest"} point ran forwards ` +
+      `into the ${lower[turned].wall}, and friction there turned it round. ${end}`;
   }
 
   const listed = (outcomes) => outcomes.map((one) => one.name).join("; ");
