@@ -15,7 +15,6 @@ const lens = (() => {
   const HATCH = 0.26;
   const UNDERSIDE = 1.7; // radius of the ball in the glass
   const LINE = 17; // px between two lines of words
-
   const SLIDES = 1e-9; // incidence from which on something does
 
   // What the contact does now; `first` is its incidence.
@@ -29,9 +28,8 @@ const lens = (() => {
 
   // Markup of the glass: `now` a row of the contact, `sign` the direction in which the contact point
   // came, `up` 1 on the floor and -1 under the table. Its middle is at (x, y), its radius `size`;
-  // `tip` is the place of the contact; its words stand on that `side`,
-  // if they are not said elsewhere.
-  // `speed` is mu v2(0) of this bounce over the speed of the fastest contact point of the throw.
+  // `speed` is mu v2(0) of this bounce over that of the fastest contact point of the throw. `tip` is
+  // the place of the contact; words stand on that `side`, if they are not said elsewhere.
   function show({ lane, now, first, speed, sign, up, springy, x, y, size, tip, side, worded }) {
     const u = (value) => value * size;
     const place = (across, down) => [x + u(across), y + up * u(down)];
