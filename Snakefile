@@ -70,7 +70,7 @@ for target, names in [("paper", PAPER), *((name, [name]) for name in JUDGED)]:
 
 
 onstart:
-    print(notice())
+    print(notice(), end="")
 
 
 onsuccess:
