@@ -137,7 +137,7 @@ rule site:
     """All pages for students and readers, in one folder and as a zip file: five minutes of processor time."""
     input:
         made=[
-            *(path for path in PAGES if "/answers_" not in path),  # which are for the teacher
+            *(path for path in PAGES if "answers_" not in path),  # which are for the teacher
             *made(JUDGED),
             *expand("results/verdicts/{judged}.csv", judged=JUDGED),
             "results/ledger.csv",
