@@ -25,10 +25,10 @@ MODULE = re.compile(r"^(?:from|import) (\w+)", re.M)
 BEGIN = """\
 **This notebook is yours.** Run it from top to bottom: menu *Run*, *Run All Cells*. Then change any
 number in a cell, and run that cell and those below it again. Texts keep the numbers of the lecture.
-A click opens what is folded. Cells
-with `play(...)` have sliders and a button if `ipywidgets` was installed before Jupyter was started,
-else numbers to change. If something no longer works: undo your change, restart, and run all cells again. Links
-lead to pages that lie beside this notebook, where it was downloaded."""
+A click opens what is folded. Cells with `play(...)` have sliders and a button if `ipywidgets` was
+installed before Jupyter was started, else numbers to change. If something no longer works: undo
+your change, restart, and run all cells again. Links lead to pages that lie beside this notebook,
+where it was downloaded."""
 INSTALL = """\
 # Install what is missing. Is planarimpact not found? Then let WHERE be the folder of the project,
 # the one that holds pyproject.toml.
