@@ -69,6 +69,10 @@ for target, names in [("paper", PAPER), *((name, [name]) for name in JUDGED)]:
             "workflow/scripts/gate.py"
 
 
+onstart:
+    print(notice(), end="")
+
+
 onsuccess:
     print(summary(stopped=False))
 

@@ -64,7 +64,8 @@ REPRODUCTION = {
     "logs": "",
     "gate": "tables figure_table verdict_table ledger",
     "pages": "common bodies export tables reference_data figures formulas goodness judging"
-    " ledger settings gate versions names words figure_table verdict_table jinja2 pandas",
+    " ledger settings gate versions names words figure_table verdict_table"
+    " jinja2 pandas matplotlib",
 }
 # The figures have one folder each, and in it files that solve and files that draw, or that judge
 # what is drawn.

@@ -80,6 +80,7 @@ def summary(
     passed: Collection[str],
     stopped: bool,
     config: Sequence[str],
+    made: Sequence[str] = (),
 ) -> str:
     """What a run says at its end, by the tables of what it judges that are up to date then.
 
@@ -87,6 +88,7 @@ def summary(
     the ledger is not judged. `shows` says what each figure of the paper shows. `failed` names jobs,
     with their logs, and `passed` the targets that judge and have passed; `stopped` says that a job
     failed or that the run was interrupted. `config` are the arguments of --config, to be repeated.
+    `made` are the files that were asked for by name, or by the name of a rule that makes them.
     """
     rows = verdict_table.gather(verdicts)
     ledger = tables.read_rows(LEDGER, outcome.COLUMNS) if entries else []
@@ -126,7 +128,9 @@ def summary(
         parts += ["No comparison fails." if rows else "There is nothing to compare."]
         parts += ["The verdict of all: snakemake --cores 2"]
     elif not others:
-        parts += ["Not judged. Pictures and pages: figures/"]
+        parts += [
+            f"Made: {', '.join(made)}" if made else "Not judged. Pictures and pages: figures/"
+        ]
     return "\n".join(parts) + "\n"
 
 

@@ -40,7 +40,9 @@ def words(tmp_path, monkeypatch):
     (tmp_path / "results").mkdir()
     tables.write_rows(gate.LEDGER, [ENTRY], outcome.COLUMNS)
 
-    def told(verdict="agrees", judged=2, failed=None, passed=(), config=(), whole=True, **cells):
+    def told(
+        verdict="agrees", judged=2, failed=None, passed=(), config=(), whole=True, made=(), **cells
+    ):
         cells |= {"verdict": verdict}
         rows = [VERDICT | cells | {"comparison": f"row-{i}"} for i in range(10)]
         for i in range(2):
@@ -49,7 +51,7 @@ def words(tmp_path, monkeypatch):
         logs, stopped = {job: f"{job}.log" for job in failed or ()}, failed is not None
         entries = ["eq-25"] if whole else []
         rows = names[: 5 * judged], entries, {"fig6": "rebound"}
-        return gate.summary(paths, *rows, logs, passed, stopped, config)
+        return gate.summary(paths, *rows, logs, passed, stopped, config, made)
 
     return told
 
@@ -96,6 +98,13 @@ def test_a_run_with_other_settings_is_not_judged_and_says_how_to_draw(words):
     assert "FAIL" not in said and "PASSED" not in said
     said = words("not compared", failed=["draw fig6"], **cells)  # not all is drawn
     assert "NOT JUDGED" not in said and "failed: draw fig6" in said and "is kept" in said
+
+
+def test_a_run_that_judges_nothing_says_what_it_made(words):
+    asked = {"judged": 0, "whole": False}
+    assert words(**asked, made=["results/site", "b.zip"]) == "\nMade: results/site, b.zip\n"
+    assert words(**asked) == "\nNot judged. Pictures and pages: figures/\n"
+    assert "Made: " not in words(**asked, made=["b.zip"], failed=["curves fig9"])
 
 
 def test_a_run_that_stopped_names_its_jobs_and_what_was_judged(words):

@@ -12,7 +12,7 @@ from stronge1994.explorer import page
 FOLDER = Path(__file__).parents[2] / "workflow/explorer"
 # Those that do not look at their page as they are loaded.
 SCRIPTS = ["solver", "continuum", "check", "models", "flight", "charts", "arrows", "patch"]
-SCRIPTS += ["diagram", "words", "files", "stage"]
+SCRIPTS += ["diagram", "words", "files", "lens", "stage"]
 # What is drawn is kept in elements that nobody sees, by their ids.
 BASE = f"""
 const CONTINUUM_ERROR = {page.CONTINUUM_ERROR};
@@ -26,8 +26,8 @@ const document = {{ getElementById: (id) => drawn[id] ??= {{
 // One impact as a page knows it.
 function impact_of(style, groups) {{
   const contact = models.contact(style, groups);
-  return {{ ...groups, contact, states: {{}}, limit: models.slip_throughout_limit(style, groups),
-    phases: models.phases(contact.rows) }};
+  return {{ ...groups, sign: 1, contact, states: {{}}, phases: models.phases(contact.rows),
+    limit: models.slip_throughout_limit(style, groups) }};
 }}
 """
 # Answers each line, an expression, with its value or its error.

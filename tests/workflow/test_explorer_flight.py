@@ -97,27 +97,127 @@ def test_a_ball_that_does_not_bounce_stays_on_the_floor(scripts):
     assert abs(parts[2]["ball"]["up"]) == parts[2]["ball"]["height"] == 0
 
 
-# What is drawn of a throw at a time of its show, and what the microscope shows of its first bounce.
-SHOWN = """([given, style, share]) => {
+# The superball under a table, as a student throws it, and what is said after each bounce.
+STORIES = """(compliance) => {
+  const given = { angle: 45, speed: 7.07, spin: 0, friction: 0.8, mass_ratio: 3.5, restitution: 0.9,
+    table: 0.7, radius: 0.025, gravity: 0 };
+  const groups = (x) => ({ x, mu: 0.8, beta: 3.5, zeta2: 1.5 * compliance, e: 0.9 });
+  const bounces = (style) => flight.fly(given, (x) => models.contact(style, groups(x)))
+    .filter(({ kind }) => kind === "bounce");
+  const both = { upper: bounces("rigid"), lower: bounces("lumped") };
+  return [0, 1, 2, 3, 3].map((count, i) => words.story(both, count, i === 4, compliance > 0));
+}"""
+
+
+def test_the_story_of_a_throw_says_what_each_bounce_has_done(scripts):
+    """By the springs 2.9, -0.9 and -2.3 m/s, by the rigid contact 3.6, 1.5 and 0.7 m/s."""
+    told = [
+        [one.replace("\u00a0", " ") for one in scripts.map(STORIES, [share])[0]] for share in (1, 0)
+    ]
+    with_spring, without = told
+    assert "Only the lower ball has a spring" in with_spring[0] and "both contacts" in without[0]
+    for said, wall, share, spring, rigid in zip(
+        with_spring[1:4],
+        ("floor", "table", "floor"),
+        (45, 64, 41),
+        (
+            "goes on, 2.9 m/s forwards",
+            "turns round, 0.9 m/s backwards",
+            "comes back, 2.3 m/s backwards",
+        ),
+        ("3.6", "1.5", "0.7"),
+        strict=True,
+    ):
+        back = f"threw the contact point back, at {share} % of the speed it came with"
+        assert (
+            f"({wall}). With the spring: the spring recoiled and {back}; the ball {spring}." in said
+        )
+        assert said.endswith(
+            f" Without: the contact point stopped; the ball goes on, {rigid} m/s forwards."
+        )
+    assert "came back" in with_spring[4] and "ran forwards into the table" in with_spring[4]
+    assert without[4].startswith("Both balls went on.") and "recoiled" not in "".join(without)
+    # With half of the compliance the contact ends at a worse moment.
+    assert "Timing decides" in scripts.map(STORIES, [0.5])[0][4]
+
+
+TOLD = """([given, share]) => {
+  const groups = (x) => ({ x, mu: given.friction, beta: given.mass_ratio, zeta2: 1.5 * share,
+    e: given.restitution });
+  const bounces = (style) => flight.fly(given, (x) => models.contact(style, groups(x)))
+    .filter(({ kind }) => kind === "bounce");
+  const both = { upper: bounces("rigid"), lower: bounces("lumped") };
+  return [0, 1].map((over) => words.story(both, both.lower.length, over === 1, share > 0)).concat(
+    Object.values(both).map((all) => all.map((one) => [one.x, one.contact.state.velocity,
+      one.ball.along, one.after.along, Math.min(...one.contact.rows.map((row) => row.velocity)),
+      one.contact.rows.some((row) => row.sticks)])));
+}"""
+
+
+def test_a_story_is_true_of_every_throw(scripts):
+    rng, endings = np.random.default_rng(1983), {"came back": 0, "went on, too": 0, "Both balls": 0}
+    throws = [(one, share) for one in THROWS for share in (0.0, rng.uniform(0.05, 1), 1.0)]
+    for said, ending, upper, lower in scripts.map(TOLD, throws):
+        x, w, before, after, least, stuck = lower[-1]
+        own = said.partition(" Without: ")[0].partition("Both: ")
+        own = own[2] or own[0]
+        reversed_, swung = w < -0.0005 * x, least < -0.0005 * x
+        assert ("recoiled and threw" in own) == (stuck and reversed_ and "With the" in said)
+        assert ("and then forwards again" in own) == (stuck and swung and w > 0.0005 * x)
+        assert ("slipped throughout" in own) == (not stuck)
+        if abs(after) >= 0.05:
+            assert f"{abs(after):.1f} m/s {'forwards' if after > 0 else 'backwards'}" in own
+            assert ("turns round" in own) == (before * after < 0 and abs(before) >= 0.05)
+        for words in endings:
+            endings[words] += words in ending
+        if "came back" in ending:
+            # The rigid one goes on throughout; the other one turns once, after the first bounce.
+            ways = [one[3] > 0 for one in lower]
+            assert all(one[3] > 0 for one in upper) and ways[0] and not ways[-1]
+            assert ways == sorted(ways, reverse=True) and all(one[1] < 0 for one in lower)
+    assert min(endings.values()) > 0, endings
+
+
+def test_a_show_ends_soon(scripts):
+    """However small gravity is, or the velocity towards a wall."""
+    slow = {"angle": 89.9, "speed": 0.5, "spin": 0, "friction": 0.8, "mass_ratio": 3.5}
+    slow |= {"restitution": 0.01, "table": 2, "radius": 0.025}
+    throws = [slow | {"gravity": g} for g in (0, 0.1)]
+    throws += [one | {"angle": 10, "speed": 12, "restitution": 1, "table": 0} for one in throws]
+    longest = (
+        "(one) => flight.fly(one, (x) => ({ state: solver.rebound(x, 3.5, 1.5, one.restitution)"
+    )
+    for times in scripts.map(f"{longest} }})).map((part) => part.time ?? 0)", throws):
+        assert max(times) <= 6 and len(times) > 2
+
+
+# What is drawn of a throw at a time of its show, a share of the first bounce and the flight before
+# it, and what the microscope shows of that bounce.
+SHOWN = """([given, styles, share]) => {
   for (const id in drawn) delete drawn[id];
-  const groups = (x) => ({ x, beta: given.mass_ratio, zeta2: 1.2, e: given.restitution });
-  const flights = Object.fromEntries([["lumped", "lumped"], ["continuum", style]].map(
+  const groups = (x) => (
+    { x, mu: given.friction, beta: given.mass_ratio, zeta2: 1.2, e: given.restitution });
+  const flights = Object.fromEntries(Object.entries(styles).map(
     ([lane, one]) => [lane, flight.fly(given, (x) => models.contact(one, groups(x)))]));
-  stage.prepare({ ...given, groups: groups(0) }, flights);
-  stage.show(share * stage.duration());
-  const { time, touching } = stage.first_bounce(share * stage.duration());
-  const [, { contact, x }] = flights[share > 0.4 ? "continuum" : "lumped"];
+  stage.prepare({ ...given, groups: groups(0) }, flights, styles);
+  const { start, length } = stage.first_bounce(0).segment;
+  const now = share * (start + length);
+  stage.show(now);
+  const { time, touching } = stage.first_bounce(now);
+  const [, { contact, x, sign }] = flights.lower;
   const row = models.at(contact, Math.min(time, contact.end));
-  diagram.show({ contact, ...groups(x), mu: given.friction }, row, time, touching);
+  diagram.show({ contact, sign, ...groups(x) }, row, touching);
   return JSON.parse(JSON.stringify(drawn));
 }"""
+SPRING = {"upper": "rigid", "lower": "lumped"}
+CONTINUA = [{"upper": "lumped", "lower": loss} for loss in ("viscous", "plastic")]
 LOOKED_AT = Path(__file__).with_name("explorer.yaml")
 
 
 def test_the_stage_is_the_one_that_was_looked_at(scripts):
     """After a change that is meant, empty the file, run this, and look at the explorer."""
-    shares, found = [0, 0.05, 0.1, 0.3, 0.5, 0.9], []
-    throws = list(zip(THROWS[:6], ["viscous", "plastic"] * 3, shares, strict=True))
+    shares, found = [0, 0.3, 0.7, 0.8, 0.9, 1.1], []
+    throws = list(zip(THROWS[:6], [SPRING, *CONTINUA] * 2, shares, strict=True))
     for share, drawn in zip(shares, scripts.map(SHOWN, throws), strict=True):
         for name, part in sorted(drawn.items()):
             words = [text for key, text in part.items() if key == "textContent"]

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from planarimpact import Regime, lumped
+from planarimpact import Regime, lumped, rigid
 from stronge1994.explorer import page
 from tests.workflow import node
 
@@ -38,13 +38,13 @@ def impacts():
 
 
 def disagreements(scripts, rows):
-    """Rows that this JavaScript solves otherwise than the package."""
+    """Rows whose results by this JavaScript differ from those of the package."""
     found = lumped.rebound(*np.transpose(rows))
     wanted = found.velocity, found.peak_friction, found.dissipation
     fields = "[found.velocity, found.peak_friction, found.dissipation, found.regime]"
     one = f"(row) => {{ const found = solver.rebound(...row); return {fields}; }}"
     *numbers, regimes = zip(*scripts.map(one, rows), strict=True)
-    # Velocity and dissipation of a grazing blow are as large as its incidence.
+    # Velocity and dissipation of a grazing impact are as large as its incidence.
     size = np.maximum(np.array(rows)[:, 0], 1.0)
     close = np.abs(np.array(numbers, float) - wanted) <= ACCURACY * size
     same = np.array(regimes) == [Regime(code).name for code in found.regime]
@@ -94,3 +94,19 @@ def test_history_is_that_of_the_package(scripts):
         # rounding, by its square root, 1.5e-8.
         bound = 1e-7 if row[0] == math.nextafter(row[1], 0) else ACCURACY
         assert np.shape(ours) == theirs.shape and np.abs(ours - theirs).max() <= bound, row
+
+
+def test_the_contact_without_a_spring_is_the_rigid_limit(scripts):
+    rows = [(x, 3.5, e) for x in (0.0, 1.25, 3.5, 5.0, 8.0) for e in (0.0, 0.35, 0.5, 1.0)]
+    columns = ["time", "normal", "friction", "velocity"]
+    instant = f"(at) => {json.dumps(columns)}.map((name) => at[name])"
+    found = scripts.map(f"(row) => solver.rigid_history(...row, 2001).map({instant})", rows)
+    for (x, beta, e), course in zip(rows, found, strict=True):
+        time, normal, friction, velocity = np.transpose(course)
+        theirs = rigid.rebound(x, beta, restitution=e)
+        assert abs(velocity[-1] - theirs.velocity) < 1e-12 and abs(time[-1] - 1 - e) < 1e-12
+        # Friction is all that changes the velocity, at its limit until the contact point stops.
+        impulse = np.sum((friction[1:] + friction[:-1]) / 2 * np.diff(time)) * np.pi / 2
+        assert abs(x - beta * impulse - velocity[-1]) < 0.01 * max(1, x)
+        sliding = np.where(velocity > 1e-12, normal, 0)
+        assert np.array_equal(friction[:-1], sliding[:-1])

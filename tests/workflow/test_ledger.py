@@ -202,9 +202,7 @@ def test_the_page_has_every_entry_and_all_columns_of_an_entry(first_run, rows, t
     assert flat(article.partition(">")[2].split("</article>")[0]) == flat(ARTICLE)
     assert "nolongerholdseq" in flat(head) and flat("its says. eq wrong stands") in flat(head)
     # The impact that a link shows is the one of which its words tell.
-    state = (
-        r"angle=(.*?)&friction=(.*?)&restitution=(.*?)&poisson_ratio=0.3&mass_ratio=3.5&of=lumped"
-    )
+    state = r"angle=(.*?)&friction=(.*?)&restitution=(.*?)&poisson_ratio=0.3&mass_ratio=3.5&view"
     links = re.findall(rf'{state}.*?"(.*?)</p>', page, flags=re.S)
     assert len(links) == sum("explorer" in entry for entry in ENTRIES.values()) > 9
     for angle, mu, e, words in links:

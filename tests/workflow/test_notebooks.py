@@ -1,8 +1,8 @@
-"""The lectures: how they are kept, how they fail, and that their asserts see a wrong solver."""
+"""The lectures: how they fail, what their texts state, and the notebooks for students."""
 
+import inspect
 import json
 import re
-import shutil
 import sys
 
 import matplotlib
@@ -11,14 +11,14 @@ import nbformat
 import pytest
 
 from planarimpact.lumped import stick_slip
-from stronge1994.pages import lectures
+from stronge1994.pages import lectures, stated_numbers, student
 from tests.workflow.project import ROOT
 
 TEMPLATES = {
     "page": ROOT / "workflow/report/notebook.html",
     "slides": ROOT / "workflow/report/slides.html",
 }
-KINDS = "executed", "page", "slides", "answers"
+KINDS = "page", "slides", "answers", "student"
 PAGES = "", "slides_", "answers_"  # how the files of these pages begin
 FOLDER = ROOT / "workflow/notebooks"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
@@ -28,28 +28,57 @@ def code_of(book):
     return [cell for cell in book.cells if cell.cell_type == "code"]
 
 
-def written(path, *sources):
-    """A notebook of these cells of code, at `path`."""
+def lecture(name):
+    """A lecture as it is kept, and the rows of its table."""
+    book = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
+    return book, stated_numbers.read(FOLDER / f"{name}.yaml", book.cells)
+
+
+def written(path, *sources, table=""):
+    """A notebook of these cells of code, at `path`, and its table beside it."""
     cells = [nbformat.v4.new_code_cell(source) for source in sources]
+    cells.append(nbformat.v4.new_markdown_cell("Three is 3, not four.", id="said"))
     path.write_text(nbformat.writes(nbformat.v4.new_notebook(cells=cells)), encoding="utf-8")
+    path.with_suffix(".yaml").write_text(f"numbers: [{table}]", encoding="utf-8")
     return path
 
 
-def executed(book):
-    """Run the cells in this process."""
+def run(notebook, folder):
+    """What is made of a notebook, by its kind."""
+    results = {kind: folder / kind for kind in KINDS}
+    lectures.run(notebook, notebook.with_suffix(".yaml"), TEMPLATES, results)
+    return {kind: path.read_text(encoding="utf-8") for kind, path in results.items()}
+
+
+def executed(book, rows=(), sliders=False):
+    """Run the cells in this process, sliders to their ends if asked, and compare rows of texts."""
     matplotlib.use("Agg")
     names = {}
     with matplotlib.rc_context():
         try:
-            for cell in code_of(book):
-                exec(cell.source, names)
+            for cell, of_text in stated_numbers.with_checks(book.cells, rows):
+                if cell.cell_type == "code":
+                    exec(re.sub(r"^ +%pip .*", "    raise", cell.source, flags=re.M), names)
+                    names |= {"play": at_both_ends} if sliders and "play" in names else {}
+                    plt.close("all")
+                stated_numbers.compare(names, of_text)
         finally:
             plt.close("all")
 
 
+def at_both_ends(show, **ranges):
+    """Show what a student sees first, and with each slider at its ends, or each of its choices."""
+    assert set(ranges) <= set(inspect.signature(show).parameters)
+    show()
+    for name, reach in ranges.items():
+        for value in reach[:2] if isinstance(reach, tuple) else reach:
+            show(**{name: value})
+            plt.close("all")
+
+
 @pytest.mark.parametrize("name", NAMES)
-def test_a_wrong_solver_trips_an_assert(name, monkeypatch):
-    book = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
+def test_a_wrong_solver_makes_a_stated_number_wrong(name, monkeypatch):
+    book, rows = lecture(name)
     solve = stick_slip.solve
 
     def too_soft(impacts, *trace):
@@ -57,8 +86,30 @@ def test_a_wrong_solver_trips_an_assert(name, monkeypatch):
 
     monkeypatch.setattr(stick_slip, "solve", too_soft)
     monkeypatch.chdir(FOLDER)
-    with pytest.raises(AssertionError):
-        executed(book)
+    with pytest.raises(stated_numbers.WrongNumberError):
+        executed(book, rows)
+
+
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [
+        ("gives: three + 1}", "said: the text says 'is 3, not', its cells give 4"),
+        ("gives: '[three, 3]'}", "said: the text says 'is 3, not', its cells give 3, 3"),
+        ("gives: four}", "said: .*, its cells give no answer: NameError: name 'four' is not defi"),
+        ("holds: four, given: four = three > 3}", "said: .*, its cells give no truth of four"),
+    ],
+)
+def test_a_text_that_states_what_its_cells_do_not_give_fails_the_run(row, words, tmp_path):
+    """In one line: the lecture, the cell, both numbers. No notebook and no page has the checks."""
+    says = "{cell: said, says: 'is 3, not', "
+    good = written(tmp_path / "good.ipynb", "three = 3", table=f"{says}gives: three}}")
+    made = run(good, tmp_path)
+    assert "three = 3" in re.sub("<.*?>", "", made["page"])
+    assert not [kind for kind, text in made.items() if "compare" in text or "stated_num" in text]
+    bad = written(tmp_path / "bad.ipynb", "three = 3", table=says + row)
+    with pytest.raises(lectures.NotebookError, match=rf"^bad\.ipynb, {words}") as refusal:
+        run(bad, tmp_path)
+    assert "\n" not in str(refusal.value)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -68,26 +119,111 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
     for page in pages.values():
         assert not re.search(r'src="(?!explorer\.html\?stage(=micro)?#|data:)|url\(|@import', page)
         linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
-        assert all(re.fullmatch(r"[a-z0-9_]+\.html", file) for file in linked)
+        assert all(re.fullmatch(r"[\w/]+\.(html|csv|ipynb)", file) for file in linked)
+        assert not [file for file in linked if file.startswith("answers_")], "of the teacher"
     told = {kind: "Answer to exercise" in page for kind, page in pages.items()}
     assert told == {"": False, "slides_": False, "answers_": True}
-    executed = nbformat.read(project / f"results/notebooks/{name}.ipynb", as_version=4)
-    assert all(cell.execution_count for cell in code_of(executed))
-    assert "stronge1994" not in str([cell.source for cell in code_of(executed)]), "not installed"
+    for kind in ("", "slides_"):
+        assert f'href="student_{name}.ipynb"' in pages[kind]
     log = (project / f"results/logs/lecture_{name}.log").read_text()
     assert not re.search("warning|error|traceback", log, flags=re.I), log
 
 
-def test_a_notebook_of_the_site_finds_its_table(first_run, tmp_path, monkeypatch, capsys):
-    """Also where the folder of the site is all there is; without a table it says what makes it."""
-    shutil.copytree(FOLDER, tmp_path / "notebooks")
-    monkeypatch.chdir(tmp_path / "notebooks")
-    book = nbformat.read(FOLDER / "choosing_a_model.ipynb", as_version=4)
-    with pytest.raises(Exception, match=r"trade\.csv is missing: snakemake"):
-        executed(book)
-    shutil.copytree(first_run[0] / "figures/tables", tmp_path / "tables")
-    executed(book)
-    assert "looked up: " in capsys.readouterr().out
+@pytest.mark.parametrize("name", NAMES)
+def test_cells_need_the_package_alone_and_check_nothing(name):
+    book, rows = lecture(name)
+    source = "\n".join(cell.source for cell in code_of(book))
+    assert rows and not re.search(r"stronge1994|^ *assert ", source, flags=re.M)
+    assert not [cell.id for cell in code_of(book) if cell.outputs or cell.execution_count]
+
+
+@pytest.fixture
+def of_student(tmp_path, monkeypatch):
+    """Function: the notebook of a lecture for students; the test runs in an empty folder.
+
+    The table has the shape of that of a run, whose times are measured.
+    """
+    cells = tmp_path / "workflow/notebooks"
+    cells.mkdir(parents=True)
+    (cells / "lecture.mplstyle").symlink_to(FOLDER / "lecture.mplstyle")
+    (tmp_path / "workflow/report").symlink_to(ROOT / "workflow/report")
+
+    def made(name, results=None):
+        if results:
+            (tmp_path / "results").symlink_to(results)
+        return student.notebook(lecture(name)[0], cells)
+
+    (tmp_path / "empty").mkdir()
+    monkeypatch.chdir(tmp_path / "empty")
+    return made
+
+
+# What a student may change first, in every cell that has it.
+EDITS = {
+    "as it is": ("^", ""),
+    "friction": (r"\b((?:friction|mu) ?= ?)\d[\d.e-]*", r"\g<1>0.5"),
+    "restitution": (r"\b((?:restitution|e) ?= ?)\d[\d.e-]*", r"\g<1>0.6"),
+    "material": (r"\b(poisson_ratio ?= ?)\d[\d.e-]*", r"\g<1>0.4"),
+    "steel": (r"\b(poisson_ratio ?= ?)\d[\d.e-]*", r"\g<1>0.3"),
+    "size": (r"\b((?:radius|diameter) ?= ?)\d[\d.e-]*", r"\g<1>0.04"),
+    "body": (r"\b((?:mass_ratio|BETA) ?= ?)\d[\d.e-]*", r"\g<1>2.5"),
+    "constants": (r"(?m)^([A-Z_]+ = )(\d+\.\d+)\b", lambda one: f"{one[1]}{0.8 * float(one[2])}"),
+    "slow": (r"\b((?:tangential|speed) ?= ?)\d[\d.e-]*", r"\g<1>1.5"),
+}
+
+
+# What a lecturer tried first; the others belong to a long run.
+TRIED = "as it is", "friction", "steel", "size"
+LONG = [pytest.param(edit, marks=pytest.mark.long) for edit in EDITS if edit not in TRIED]
+
+
+@pytest.mark.parametrize("edit", [*TRIED, *LONG])
+@pytest.mark.parametrize("name", NAMES)
+def test_a_student_may_edit_numbers_and_needs_no_file(name, edit, of_student, first_run):
+    book = of_student(name, first_run[0] / "results")
+    for cell in code_of(book):
+        cell.source = re.sub(*EDITS[edit], cell.source)
+    executed(book, sliders=edit == "as it is")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_notebook_for_students_has_no_answers_and_all_that_it_needs(
+    name, of_student, first_run
+):
+    book = of_student(name, first_run[0] / "results")
+    nbformat.validate(book)
+    text = nbformat.writes(book)
+    assert len(text) < 150_000 and not re.search(r"Answer to exercise|\.\./|\?stage|mplstyle", text)
+    assert code_of(book)[0].id == "install" and book.metadata.kernelspec.name == "python3"
+    kept = {cell.id: cell for cell in lecture(name)[0].cells}
+    tags = {tag for cell in book.cells for tag in kept.get(cell.id, cell).metadata.get("tags", [])}
+    games = [
+        cell.source for cell in code_of(book) if re.search(r"^play\(", cell.source, flags=re.M)
+    ]
+    assert tags == {"student"} and len(games) >= 2
+    for kind in PAGES:
+        page = (first_run[0] / f"figures/{kind}{name}.html").read_text()
+        assert not re.search(r"^play\(", re.sub("<.*?>", "", page), flags=re.M)
+    # The same as that of the run, but for the times.
+    made = nbformat.read(first_run[0] / f"figures/student_{name}.ipynb", as_version=4)
+    assert [cell.id for cell in made.cells] == [cell.id for cell in book.cells]
+
+
+def test_a_student_gets_pictures_and_installs_what_a_cell_imports(tmp_path):
+    (tmp_path / "notebooks").mkdir()
+    (tmp_path / "drawing.svg").write_text("<svg/>")
+    assert student.text("![A ball](../drawing.svg)", tmp_path / "notebooks") == (
+        '<img alt="A ball" src="data:image/svg+xml;base64,PHN2Zy8+">'
+    )
+    said = student.install("import pandas as pd\nfrom scipy.optimize import brentq")
+    assert "import pandas, planarimpact, scipy\n" in said
+    assert '%pip install "{WHERE}" pandas\n' in said
+
+
+def test_a_file_that_a_student_lacks_is_refused(tmp_path):
+    book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("open('../a.txt')", id="a")])
+    with pytest.raises(ValueError, match=r"^a: a student has no such file: \"open\('\.\./a"):
+        student.notebook(book, tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -108,9 +244,9 @@ def test_a_cell_that_fails_ends_the_kernel_or_hangs_is_named_in_one_line(
     monkeypatch.setattr(lectures, "CELL_TIMEOUT", 1)
     lost = written(tmp_path / "lost.ipynb", "x = 1", source)
     with pytest.raises(lectures.NotebookError, match=rf"^lost\.ipynb{words}") as refusal:
-        lectures.run(lost, TEMPLATES, {kind: tmp_path / kind for kind in KINDS})
+        run(lost, tmp_path)
     assert "\n" not in str(refusal.value)
-    assert list(tmp_path.iterdir()) == [lost]
+    assert {path.stem for path in tmp_path.iterdir()} == {"lost"}
 
 
 def test_the_kernel_is_this_python_whatever_is_registered(tmp_path, monkeypatch):
@@ -121,7 +257,5 @@ def test_the_kernel_is_this_python_whatever_is_registered(tmp_path, monkeypatch)
     monkeypatch.setenv("JUPYTER_PATH", str(tmp_path))
     monkeypatch.setenv("HOME", "/nonexistent")
     source = "import sys, planarimpact\nprint(sys.executable, planarimpact.__file__, sep='\\n')"
-    results = {kind: tmp_path / kind for kind in KINDS}
-    lectures.run(written(tmp_path / "where.ipynb", source), TEMPLATES, results)
-    said = nbformat.read(results["executed"], as_version=4).cells[0].outputs[0].text.splitlines()
-    assert said == [sys.executable, str(ROOT / "src/planarimpact/__init__.py")]
+    page = run(written(tmp_path / "where.ipynb", source), tmp_path)["page"]
+    assert f"{sys.executable}\n{ROOT / 'src/planarimpact/__init__.py'}\n" in page

@@ -25,6 +25,7 @@ FOLDER = ROOT / "workflow/report"
 BAR = re.findall(r'^  \("(.+?)", ', (FOLDER / "site.html").read_text(encoding="utf-8"), flags=re.M)
 INTERFACE, SLIDES = "interface/planarimpact.html", "slides_why_a_superball_comes_back.html"
 OF_LECTURES = "slides_", "answers_"
+ANSWERS = "answers_choosing_a_model.html"
 COLOURS = "color-contrast"  # a rule of axe
 # pdoc writes the interface and has no option for these: the links beside each name have no words,
 # and each "Parameters" is a heading of level 6 with the same id.
@@ -112,9 +113,8 @@ def site(figures, tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     with contextlib.chdir(figures.parent):
         pages = [path for path in pathlib.Path("figures").iterdir() if path.suffix != ".md"]
-        notebooks = [*pathlib.Path("results/notebooks").glob("*.ipynb")]
-        notebooks.append("workflow/notebooks/lecture.mplstyle")
-        write_site.write(f"{folder}/site", pages, notebooks, ["LICENSE", "CITATION.cff"])
+        pages = [path for path in pages if not path.name.startswith("answers_")]
+        write_site.write(f"{folder}/site", pages, ["LICENSE", "CITATION.cff"])
     interface.write(f"{folder}/site/interface")
     write_site.pack(f"{folder}/site", f"{folder}/site.zip")
     shutil.unpack_archive(folder / "site.zip", folder / "unpacked")
@@ -125,6 +125,10 @@ def site(figures, tmp_path_factory):
 def test_snakemake_makes_the_same_site(finished, site):
     result = finished.run("site")
     assert result.returncode == 0, result.stdout
+    assert (
+        "five minutes" in result.stdout
+        and "\nMade: results/site, results/site.zip" in result.stdout
+    )
     files = [
         {str(path.relative_to(folder)) for path in folder.rglob("*") if path.name[0] != "."}
         for folder in (site, finished / "results/site")
@@ -133,7 +137,7 @@ def test_snakemake_makes_the_same_site(finished, site):
 
 
 def test_the_bar_has_every_page(figures):
-    # A lecture links its own slides and answers.
+    # A lecture links its own slides; its answers are for the teacher.
     written = {path.name for path in figures.glob("*.html")}
     assert sorted(BAR) == sorted(name for name in written if not name.startswith(OF_LECTURES))
 
@@ -142,6 +146,10 @@ def test_every_link_of_the_site_leads_somewhere_in_it(site, figures):
     pages = [str(path.relative_to(site)) for path in site.rglob("*.html")]
     assert set(pages) > {*BAR, INTERFACE}
     assert INTERFACE in parsed(site / "index.html").links
+    assert {path.name for path in site.glob("*.ipynb")} < {*parsed(site / "index.html").links}
+    assert len([*site.glob("student_*.ipynb")]) == 3
+    text = seen((site / "index.html").read_text(encoding="utf-8"))
+    assert ANSWERS not in pages and "they are not published here" in text
     assert parsed(site / INTERFACE).bar == [f"../{file}" for file in BAR]
     names = [name for name in planarimpact.__all__ if inspect.ismodule(getattr(planarimpact, name))]
     assert {f"interface/planarimpact/{name}.html" for name in names} < set(pages)
@@ -189,7 +197,7 @@ def look(tab):
     tab.timeout = patience
 
 
-@pytest.mark.parametrize("name", [*BAR, SLIDES, INTERFACE])
+@pytest.mark.parametrize("name", [*BAR, SLIDES, ANSWERS, INTERFACE])
 def test_axe_finds_nothing_of_ours_and_no_page_is_wider_than_a_phone(figures, site, look, name):
     left = NOT_OURS if name == INTERFACE else ()
     assert look((site if left else figures) / name, left) == {"light": [], "dark": [], "phone": []}

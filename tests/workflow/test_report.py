@@ -312,8 +312,8 @@ FAILS Maw 1976: rebound, 16 points, rms 0.036 μv2(0) not compared Cross 2014; p
 | by 0.5 µv2(0) (e = 0.8, plastic; 0.6 if
 | the wrong loss is an error of up to 0.4 µ"""
 ANSWER = {"e": 0.8, "loss": "plastic", "batch": 10, "model": "m"}
-ANSWER |= {"max_velocity [mu v2(0)]": "0.05", "whole_time [s]": "3e-6"}
-TRADE = {"max_velocity [mu v2(0)]": [0.4], "input_spread [mu v2(0)]": [0.5]}
+ANSWER |= {"max_velocity_with_kinks [mu v2(0)]": "0.05", "whole_time [s]": "3e-6"}
+TRADE = {"max_velocity_with_kinks [mu v2(0)]": [0.4], "input_spread [mu v2(0)]": [0.5]}
 TRADE |= {"input_spread_stick [mu v2(0)]": [0.6]}
 
 

@@ -1,6 +1,6 @@
 "use strict";
 
-// Arrows as one outline, for both pictures; too short ones are left out.
+// Arrows as one outline, of which too short ones are left out, and springs.
 const arrows = (() => {
   function straight(x1, y1, x2, y2) {
     const length = Math.hypot(x2 - x1, y2 - y1);
@@ -29,5 +29,17 @@ const arrows = (() => {
       `L${point(back, radius + 6)}`;
   }
 
-  return { straight, round };
+  // A zigzag of a width from one end to the other.
+  function spring(x1, y1, x2, y2, width = 7) {
+    const [dx, dy] = [x2 - x1, y2 - y1];
+    const length = Math.hypot(dx, dy);
+    const aside = (share, side) =>
+      `${(x1 + share * dx - (side * width * dy) / length).toFixed(1)},` +
+      `${(y1 + share * dy + (side * width * dx) / length).toFixed(1)}`;
+    const turns = Array.from({ length: 8 }, (_, i) => aside(0.15 + 0.1 * i, i % 2 ? 1 : -1));
+    return `M${x1.toFixed(1)},${y1}L${aside(0.1, 0)}L${turns.join("L")}L${aside(0.9, 0)}` +
+      `L${x2.toFixed(1)},${y2}`;
+  }
+
+  return { straight, round, spring };
 })();

@@ -67,10 +67,10 @@ const charts = (() => {
       height="16"/><text class="word" x="${left + width / 2}" y="14">${word}</text>`;
   }
 
-  const phase_bands = ({ contact, phases }, scales) =>
+  const phase_bands = ({ contact, phases, sign }, scales) =>
     phases
       .map((phase) => {
-        const arrow = phase.side > 0 ? "\u2192" : "\u2190";
+        const arrow = sign * phase.side > 0 ? "\u2192" : "\u2190";
         const stick = contact.style === "lumped" ? ["stick"] : ["middle sticks", "stick"];
         const words = phase.sticks ? stick : [`slip ${arrow}`, arrow];
         return band(phase.sticks ? "stick" : "slip", phase.start, phase.end, words, scales);
@@ -142,9 +142,9 @@ const charts = (() => {
   };
 
   const REGIMES = [
-    ["stick", "sticks first", "stick"],
-    ["mixed", "slips first", "slip"],
-    ["slip", "slips throughout", "slip"],
+    ["stick", "sticks first", "sticks"],
+    ["mixed", "slips first", "slips"],
+    ["slip", "slips throughout", "throughout"],
   ];
 
   // Largest incidence of the chart for this impact.

@@ -4,7 +4,8 @@
 // model (Fig. 1 of the paper) a rigid body stands on a normal and a tangential spring; below them are
 // a contact particle without mass and the surface. In the continuum it stands on a row of pairs of
 // springs, of which the outer ones slip first. The picture travels with the body: what moves sideways
-// is the surface, and what sticks moves with it. Units are those of the drawing.
+// is the surface, and what sticks moves with it. Right is the way of the throw. Units are those of the
+// drawing.
 const diagram = (() => {
   const MIDDLE = 220;
   const GROUND = 262;
@@ -19,16 +20,7 @@ const diagram = (() => {
   const LEAN = 0.09; // of a spring in the row at the limit of friction, of its largest length
   const part = (name) => document.getElementById(`diagram-${name}`);
 
-  function spring(x1, y1, x2, y2, width = 7) {
-    const [dx, dy] = [x2 - x1, y2 - y1];
-    const length = Math.hypot(dx, dy);
-    const aside = (share, side) =>
-      `${(x1 + share * dx - (side * width * dy) / length).toFixed(1)},` +
-      `${(y1 + share * dy + (side * width * dx) / length).toFixed(1)}`;
-    const turns = Array.from({ length: 8 }, (_, i) => aside(0.15 + 0.1 * i, i % 2 ? 1 : -1));
-    return `M${x1.toFixed(1)},${y1}L${aside(0.1, 0)}L${turns.join("L")}L${aside(0.9, 0)}` +
-      `L${x2.toFixed(1)},${y2}`;
-  }
+  const { spring } = arrows;
 
   const draw_arrow = (name, ...ends) => part(name).setAttribute("d", arrows.straight(...ends));
 
@@ -40,9 +32,11 @@ const diagram = (() => {
     move(name, x, y);
   }
 
-  // now: row of the contact; way: distance that the body has gone along the surface; touching: false
-  // while the ball flies.
-  function show(impact, now, way, touching) {
+  // row: of the contact, positive the way that the contact point came, as `sign` of the impact says;
+  // touching: false while the ball flies.
+  function show(impact, row, touching) {
+    const now = { ...row };
+    for (const name of ["friction", "velocity", "spring", "way", "side"]) now[name] *= impact.sign;
     const lumped = impact.contact.style === "lumped";
     part("svg").classList.toggle("row", !lumped);
     part("svg").classList.toggle("flying", !touching);
@@ -51,7 +45,7 @@ const diagram = (() => {
     move("body", MIDDLE, plate);
     if (lumped) show_particle(foot, plate);
     else show_row(impact, now, plate, touching);
-    const shift = -DEFLECTION * way;
+    const shift = -DEFLECTION * now.way;
     part("surface").setAttribute("patternTransform", `translate(${shift % HATCH},0)`);
     move("origin", Math.max(MIDDLE + shift, -60), GROUND);
     show_state(now, lumped, touching);
@@ -67,7 +61,7 @@ const diagram = (() => {
   }
 
   // Springs of the row where they touch: their feet stick or slip, and they lean by their deflection.
-  function show_row({ contact, e }, { density, slips, limit, radius }, plate, touching) {
+  function show_row({ contact, e, sign }, { density, slips, limit, radius }, plate, touching) {
     const motion = continuum.normal(e, contact.style);
     const unit = motion.radius ** 2 * motion.largest_share;
     let [sticking, slipping, free, bodies] = ["", "", "", ""];
@@ -78,8 +72,9 @@ const diagram = (() => {
       // The outermost foot that touches stands for all springs beyond it.
       const outermost = touches && Math.abs(share) + 2 / (PAIRS - 1) >= radius;
       const place = outermost ? radius - 0.5 / motion.springs : Math.abs(share);
-      const k = Math.min(Math.floor(place * motion.springs), motion.springs - 1);
-      const lean = touches ? (ROW * LEAN * 3 * density[k]) / unit : 0;
+      // While the contact begins, its edge lies within the first spring.
+      const k = Math.min(Math.floor(Math.max(place, 0) * motion.springs), motion.springs - 1);
+      const lean = touches ? (sign * ROW * LEAN * 3 * density[k]) / unit : 0;
       const round = 100 * Math.abs(share) ** 2.4; // springs begin on the round body
       const end = touches ? GROUND : Math.min(GROUND - 2, plate + (GROUND - PLATE) - round + 4);
       bodies += spring(top, plate - round, top - lean, end - 7, 2.5);
@@ -119,10 +114,10 @@ const diagram = (() => {
     label("friction-label", Math.abs(friction) > 0.4, (x + foot) / 2, y + 15);
   }
 
-  function show_velocity({ mu, x, contact }, { velocity, approach }, plate) {
+  function show_velocity({ mu, x, contact, sign }, { velocity, approach }, plate) {
     const unit = SPEED / Math.hypot(1, mu * x);
     const foot = contact.style === "lumped" ? FOOT : MIDDLE;
-    draw_arrow("before", foot, plate, foot + unit * mu * x, plate + unit);
+    draw_arrow("before", foot, plate, foot + sign * unit * mu * x, plate + unit);
     const tip = [foot + unit * mu * velocity, plate + unit * approach];
     draw_arrow("velocity", foot, plate, ...tip);
   }

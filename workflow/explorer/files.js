@@ -20,6 +20,10 @@ const files = (() => {
       ["mass ratio m2/m1 [1]", impact.beta],
       ["stiffness ratio zeta^2 [1]", impact.zeta2],
       ["incidence v1(0)/(mu v2(0)) [1]", impact.x],
+      ["tangential compliance over that of the body [1]", state.compliance],
+      ["speed [m/s]", state.speed],
+      ["spin, clockwise [rad/s]", state.spin],
+      ["radius [mm]", state.radius],
     ];
     const said = found.flatMap(({ name, velocity, peak_friction, dissipation }) => [
       [`${name}: v1(tf)/(mu v2(0)) [1]`, velocity],
@@ -35,7 +39,16 @@ const files = (() => {
     return [...notes, ...[head, ...rows].map((row) => row.map(field).join(","))].join("\n") + "\n";
   }
 
-  // A copy of a drawing that needs no style sheet.
+  // The text of an element in one line, with indices as signs of Unicode where there are such.
+  function plain(part) {
+    const copy = part.cloneNode(true);
+    for (const sub of copy.querySelectorAll("sub")) {
+      sub.textContent = { 1: "\u2081", 2: "\u2082" }[sub.textContent] ?? `_${sub.textContent}`;
+    }
+    return copy.textContent.replace(/\s+/g, " ").trim();
+  }
+
+  // A copy of a drawing that needs no style sheet, without what only invites to act.
   function standalone(svg, width, height) {
     const copy = svg.cloneNode(true);
     const [from, to] = [svg, copy].map((one) => [one, ...one.querySelectorAll("*")]);
@@ -48,6 +61,7 @@ const files = (() => {
       const style = getComputedStyle(one);
       for (const name of KEPT) to[i].style.setProperty(name, style.getPropertyValue(name));
     });
+    for (const part of copy.querySelectorAll(".invitation")) part.remove();
     copy.setAttribute("width", width);
     copy.setAttribute("height", height);
     return new XMLSerializer().serializeToString(copy);
@@ -132,5 +146,5 @@ const files = (() => {
     }
   }
 
-  return { csv, picture, save, copy };
+  return { csv, picture, plain, save, copy };
 })();

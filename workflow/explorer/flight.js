@@ -6,9 +6,11 @@
 const flight = (() => {
   const HAND = 0.6; // height of the hand; a ball that comes in flat starts lower
   const BOUNCES = 5;
+  const UNDER_TABLE = 3; // bounces: floor, table, floor
   const SLOWEST = 0.3; // m/s towards the surface; slower bounces are left out
   const SLIDES = 0.3; // s, shown of a ball that does not bounce off
   const LONGEST = 0.5; // s, of a flight without gravity that does not end at a wall, or begins there
+  const MOST = 6; // s, of any flight that is shown to its end
   const RADIANS = Math.PI / 180;
 
   // Velocities of the ball just before the first bounce.
@@ -78,10 +80,14 @@ const flight = (() => {
     const gap = given.table ? given.table - 2 * given.radius : 0;
     const parts = [];
     let ball = start(given);
-    for (let count = 0; count < BOUNCES; count++) {
+    for (let count = 0; count < (gap ? UNDER_TABLE : BOUNCES); count++) {
       const { wall, time } = next(ball, gap);
       parts.push({ kind: "flight", ball, time });
       if (!wall) return parts;
+      if (count && time > MOST) {
+        parts.at(-1).time = MOST;
+        return parts;
+      }
       ball = later(ball, time);
       if (wall === "floor") ball.height = 0;
       if (count === 0) Object.assign(ball, first(given));
@@ -97,7 +103,8 @@ const flight = (() => {
       }
     }
     const { wall, time } = next(ball, gap);
-    parts.push({ kind: "flight", ball, time: wall ? time / 2 : time });
+    const shown = wall ? (gap ? 0.9 : 0.5) * time : time;
+    parts.push({ kind: "flight", ball, time: Math.min(shown, MOST) });
     return parts;
   }
 

@@ -1,8 +1,9 @@
 "use strict";
 
 // What each model says about an impact: the state at separation, and the whole contact.
-// The models are the paper's lumped contact, its rigid limit, and the continuum, which is elastic or
-// has one of two losses. An impact has the groups x, beta, zeta2 and e, and mu. CONTINUUM_ERROR is
+// The models are the paper's lumped contact, its limit without tangential compliance, called rigid,
+// and the continuum, which is elastic or has one of two losses. An impact has the groups x, beta,
+// zeta2 and e, and mu. Where zeta2 is 0, the lumped model is the rigid one. CONTINUUM_ERROR is
 // the largest error of the continuum of this page, in mu v2(0).
 const models = (() => {
   const NAMES = {
@@ -13,6 +14,7 @@ const models = (() => {
     plastic: "continuum, plastic",
   };
   const TOGGLES = ["lumped", "rigid", "continuum"];
+  const SPRINGS = ["lumped", "rigid"]; // one contact point, whose friction is exact
   const STOPPED = 0.0005; // of the tangential velocity before: less is called none
   const SAMPLES = 240; // of a contact of the lumped model
   const SHORTEST = 1e-6; // t_c, of a phase worth a word
@@ -21,7 +23,7 @@ const models = (() => {
   const style_of = (e, loss) => (e === 1 ? "elastic" : loss);
 
   const SOLVE = {
-    lumped: ({ beta, zeta2, e }) => (x) => {
+    lumped: ({ beta, zeta2, e }) => zeta2 === 0 ? SOLVE.rigid({ beta, e }) : (x) => {
       const state = solver.rebound(x, beta, zeta2, e);
       return { ...state, slides: state.regime === "SLIP_THROUGHOUT" };
     },
@@ -55,22 +57,23 @@ const models = (() => {
     };
   }
 
-  // The models of the toggles that can answer. Below e = 1 the continuum is there with both losses.
-  function chosen({ e }, toggles) {
+  // The models of the toggles that can answer. Below e = 1 the continuum is there with both losses. It
+  // is a body of one material, which has no less compliance along the surface than towards it.
+  function chosen({ e, zeta2 }, toggles) {
     const continua = e === 1 ? ["elastic"] : ["viscous", "plastic"];
-    const styles = { continuum: continuum.covers(e) ? continua : [] };
+    const styles = { continuum: continuum.covers(e) && zeta2 >= 1 ? continua : [] };
     return TOGGLES.filter((name) => toggles.includes(name))
       .flatMap((name) => styles[name] ?? [name]);
   }
 
-  // What each of these models says about one impact, whose `states` keep what has been solved. The direction is 1 forwards, -1 backwards, and
-  // 0 where the velocity is nothing, or less than the error of the continuum. The rigid limit has no
-  // spring: where it does not slide throughout it stops, whatever the others do. That is called
-  // mute, for it contradicts none of them.
+  // What each of these models says about one impact, whose `states` keep what has been solved. The
+  // direction is 1 the way that the contact point came, -1 back, and 0 where the velocity is nothing,
+  // or less than the error of the continuum. The rigid limit has no spring: where it does not slide
+  // throughout it stops, whatever the others do. That is called mute, for it contradicts none of them.
   function outcomes(styles, impact) {
     return styles.map((style) => {
       const state = (impact.states[style] ??= SOLVE[style](impact)(impact.x));
-      const error = style === "lumped" || style === "rigid" ? 0 : CONTINUUM_ERROR;
+      const error = SPRINGS.includes(style) ? 0 : CONTINUUM_ERROR;
       const none = Math.abs(state.velocity) <= Math.max(error, STOPPED * impact.x);
       const direction = none ? 0 : Math.sign(state.velocity);
       return { style, name: NAMES[style], ...state, direction,
@@ -84,7 +87,7 @@ const models = (() => {
   }
 
   function found_limit(style, { beta, zeta2, e }) {
-    if (style === "lumped") return solver.slip_throughout_limit(beta, zeta2, e);
+    if (SPRINGS.includes(style)) return solver.slip_throughout_limit(beta, zeta2, e);
     const alike = Math.max(zeta2, beta + e * (beta - zeta2));
     if (style !== "plastic") return alike;
     // While metal flows in shear, the middle may stick at larger incidences too.
@@ -103,8 +106,9 @@ const models = (() => {
 
   // The contact of one impact: its state at separation, and a row for each instant: `time` t/t_c,
   // `normal` and `friction` in the largest normal force (friction over mu too), `velocity` in
-  // mu v2(0), `approach` v2/v2(0), `depth` over the largest, shares of `energy`; whether it, or a part
-  // of it, `sticks`, or else the side to which all of it slips.
+  // mu v2(0), `way` of the contact point in mu v2(0)/Omega, `approach` v2/v2(0), `depth` over the
+  // largest, shares of `energy`; whether it, or a part of it, `sticks`, or else the side to which all
+  // of it slips.
   // Rows are worked out when they are first asked for, as most contacts are never looked at.
   function contact(style, groups) {
     const { x, beta, zeta2, e, mu } = groups;
@@ -112,20 +116,27 @@ const models = (() => {
     return {
       style,
       state: SOLVE[style](groups)(x),
-      end: style === "lumped" ? 1 + e : continuum.normal(e, style).contact.at(-1).time,
+      end: SPRINGS.includes(style) ? 1 + e : continuum.normal(e, style).contact.at(-1).time,
       get rows() {
         if (rows) return rows;
-        rows = style === "lumped"
-          ? lumped_rows(x, beta, zeta2, e) : continuum_rows(x, beta, zeta2, e, style);
+        rows = SPRINGS.includes(style)
+          ? spring_rows(x, beta, style === "rigid" ? 0 : zeta2, e)
+          : continuum_rows(x, beta, zeta2, e, style);
         const before = (mu * x) ** 2 / beta + 1;
-        for (const row of rows) row.energy = energies(row, before, mu, beta);
+        rows.forEach((row, i) => {
+          row.energy = energies(row, before, mu, beta);
+          const last = rows[Math.max(i - 1, 0)];
+          const step = ((row.time - last.time) * Math.PI) / 4;
+          row.way = (last.way ?? 0) + step * (row.velocity + last.velocity);
+        });
         return rows;
       },
     };
   }
 
-  const lumped_rows = (x, beta, zeta2, e) =>
-    solver.history(x, beta, zeta2, e, SAMPLES).map((row) => {
+  const spring_rows = (x, beta, zeta2, e) =>
+    (zeta2 ? solver.history(x, beta, zeta2, e, SAMPLES) : solver.rigid_history(x, beta, e, SAMPLES))
+    .map((row) => {
       const back = row.in_restitution;
       return {
         ...row,
@@ -204,7 +215,7 @@ const models = (() => {
     const mix = (name, from = start, to = end) => from[name] + share * (to[name] - from[name]);
     const mixed = { ...start, energy: { ...start.energy } };
     const names = ["normal", "friction", "velocity", "approach", "depth", "radius", "spring",
-      "time"];
+      "time", "way"];
     for (const name of names) if (name in start) mixed[name] = mix(name);
     // At the largest compression of the lumped model energy is lost in an instant.
     if (start.in_restitution === end.in_restitution) {

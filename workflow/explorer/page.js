@@ -1,25 +1,24 @@
 "use strict";
 
 // The page: its controls, its address, and what moves. State is what the controls show and what
-// stands behind # in the address; everything else follows from it. After each change it sends the
-// document an event "impact", whose detail is the first bounce as solved.
+// stands behind # in the address; everything else follows from it.
 const page = (() => {
   const element = (id) => document.getElementById(id);
   const SLIDERS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio", "speed", "spin",
-    "table"];
-  const CHOICES = ["view", "loss", "of"];
-  // Radius in mm, gravity in m/s^2.
+    "table", "compliance", "radius", "gravity"];
+  const CHOICES = ["view", "loss", "beside"];
+  // Compliance along the surface, over that of the body; radius in mm, gravity in m/s^2.
   const OPENING = {
-    angle: 50, friction: 0.4, restitution: 1, poisson_ratio: 0.3, mass_ratio: 3.5, speed: 5, spin: 0,
-    table: 0, radius: 25, gravity: 9.81, loss: "viscous", of: "continuum", view: "velocity",
-    models: models.TOGGLES,
+    angle: 50, friction: 0.4, restitution: 1, poisson_ratio: 0.3, mass_ratio: 3.5, compliance: 1,
+    speed: 5, spin: 0, table: 0, radius: 25, gravity: 9.81, loss: "viscous", beside: "rigid",
+    view: "velocity", models: models.TOGGLES,
   };
   const ALWAYS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]; // in the address
-  const UNSEEN = ["radius", "gravity"]; // numbers without a slider
+  // Less is none: a stiffer spring has too many phases, and a ball would fall for too long.
+  const [LEAST, LEAST_GRAVITY] = [0.005, 0.1];
   const SETTLED = 300; // ms without a change, after which the address says the state
-  const GLIDE = 220; // ms from the frame of aiming to that of the throw
   const TOLD = 5000; // ms that a message stays
-  const INVITATION = "Grab the ball, drag, let go";
+  const INVITATION = "Press Throw, or drag a ball";
   const INTENT = 8; // pixels that a finger moves before its direction counts
   // A comma is read as a decimal point, never as a separator of thousands.
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
@@ -33,6 +32,7 @@ const page = (() => {
   const state = { ...OPENING };
   let impact; // the first bounce, solved from the state
   let flights; // of both balls
+  let styles; // the models that fly them
   let list; // the models shown in the curves
   const scales = {}; // of the charts
   let frozen; // the end of the axis of incidence while its chart is dragged
@@ -64,7 +64,7 @@ const page = (() => {
   function read(address) {
     const given = new URLSearchParams(address);
     const values = { ...OPENING };
-    for (const name of [...SLIDERS, ...UNSEEN]) {
+    for (const name of SLIDERS) {
       if (!given.has(name)) continue;
       const value = parsed(given.get(name));
       if (is_allowed(name, value)) values[name] = value;
@@ -97,7 +97,7 @@ const page = (() => {
 
   // The same of the throw alone, whatever is looked at.
   const throw_address = (values) =>
-    address({ ...values, of: OPENING.of, view: OPENING.view, models: OPENING.models });
+    address({ ...values, beside: OPENING.beside, view: OPENING.view, models: OPENING.models });
 
   // ---- the throw ----------------------------------------------------------------------------
 
@@ -107,44 +107,37 @@ const page = (() => {
   // The throw as the flights need it, in SI, with the groups of its impacts.
   function thrown() {
     const { friction: mu, restitution: e, mass_ratio: beta } = state;
-    const groups = { mu, e, beta, zeta2: stiffness_ratio(state.poisson_ratio) };
+    const springs = state.beside === "rigid";
+    const own = stiffness_ratio(state.poisson_ratio);
+    const groups = { mu, e, beta, zeta2: springs ? own * (state.compliance < LEAST ? 0 : state.compliance) : own };
     const radius = state.radius / 1000;
     const table = state.table > 4 * radius ? state.table : 0;
-    return { ...state, radius, table, groups };
+    const gravity = state.gravity < LEAST_GRAVITY ? 0 : state.gravity;
+    return { ...state, radius, table, gravity, groups };
   }
 
   const continuum_style = () => models.style_of(state.restitution, state.loss);
 
-  // The models that fly: the lumped one, and the continuum where it answers.
-  const styles_of_lanes = () => ({
-    lumped: "lumped",
-    ...(continuum.covers(state.restitution) ? { continuum: continuum_style() } : {}),
-  });
+  // The models that fly: the spring below a rigid contact, or the continuum below the spring.
+  const styles_of_lanes = () => state.beside === "rigid" ? { upper: "rigid", lower: "lumped" }
+    : { upper: "lumped", lower: continuum_style() };
 
+  // The impact that is looked at closer is the first bounce of the lower lane, if its model answers.
   function solved(throw_) {
     flights = {};
-    for (const [lane, style] of Object.entries(styles_of_lanes())) {
+    for (const [lane, style] of Object.entries(styles)) {
+      if (!["rigid", "lumped"].includes(style) && !continuum.covers(state.restitution)) continue;
       flights[lane] = flight.fly(throw_, (x) => models.contact(style, { ...throw_.groups, x }));
     }
-    const parts = flights[state.of] ?? flights.lumped;
-    const { x, contact, ball, after } = parts.find(({ kind }) => kind === "bounce");
+    const parts = flights.lower ?? flights.upper;
+    const { x, contact, ball, after, sign } = parts.find(({ kind }) => kind === "bounce");
     const groups = { ...throw_.groups, x };
     return {
-      ...groups, contact, before: ball, after, states: { [contact.style]: contact.state },
+      ...groups, contact, sign, before: ball, after, states: { [contact.style]: contact.state },
       result: solver.rebound(x, groups.beta, groups.zeta2, groups.e), // of the lumped model
       limit: models.slip_throughout_limit(contact.style, groups),
       phases: models.phases(contact.rows),
     };
-  }
-
-  // Distance along the surface at a time, in about v2(0)/Omega; for the drawing, by trapezia.
-  function way_at({ contact }, time) {
-    const passed = contact.rows.filter((row) => row.time <= time);
-    const rows = [...passed, models.at(contact, time)];
-    return rows.reduce((way, row, i) => {
-      const before = rows[Math.max(i - 1, 0)];
-      return way + ((row.time - before.time) * (row.velocity + before.velocity) * Math.PI) / 4;
-    }, 0);
   }
 
   // ---- drawing ------------------------------------------------------------------------------
@@ -153,14 +146,26 @@ const page = (() => {
   function show_time() {
     stage.show(now);
     element("time").value = now;
+    show_story();
     if (scales.forces) show_closer();
+  }
+
+  // The line below the stage: of a throw with springs what has happened up to now, else what the
+  // model of the lower lane says of the first bounce.
+  function show_story() {
+    const bounces = ({ kind }) => kind === "bounce";
+    const { bounces: count, over } = stage.progress(now);
+    const said = styles.upper !== "rigid" ? `${words.sentence(impact)} ${words.centre(impact)}`
+      : words.story({ upper: flights.upper.filter(bounces), lower: flights.lower.filter(bounces) },
+        count, over, impact.zeta2 > 0);
+    if (element("sentence").textContent !== said) element("sentence").textContent = said;
   }
 
   function show_closer() {
     const { time, touching } = stage.first_bounce(now);
     const here = Math.min(time, impact.contact.end);
     const row = models.at(impact.contact, here);
-    diagram.show(impact, row, way_at(impact, here), touching && time <= impact.contact.end);
+    diagram.show(impact, row, touching && time <= impact.contact.end);
     charts.move_cursor(element("forces"), scales.forces, here, [row.normal, row.friction]);
     charts.move_cursor(element("velocity"), scales.velocity, here, [row.velocity]);
     show_energies(2, "now", row.energy);
@@ -175,21 +180,6 @@ const page = (() => {
       element(`energy-${kind}`).cells[column].textContent =
         share < 5e-4 ? "\u2013" : (100 * share).toFixed(1);
     }
-  }
-
-  function show_numbers() {
-    const { x, beta, zeta2, limit, contact, after } = impact;
-    const texts = {
-      incidence: charts.number(x, 3),
-      velocity: charts.number(contact.state.velocity, 3),
-      centre: charts.number(after.along, 3),
-      spin: charts.number(after.spin, 1),
-      friction: charts.number(contact.state.peak_friction, 3),
-      stick: charts.number(zeta2, 3),
-      slip: charts.number(limit, 3),
-      frequency: charts.number(Math.sqrt(beta / zeta2), 2),
-    };
-    for (const name in texts) element(`number-${name}`).textContent = texts[name];
   }
 
   // What each model says of the first bounce, with a word beside the numbers where they disagree.
@@ -214,8 +204,8 @@ const page = (() => {
       !mute && (direction !== own.direction || slides !== own.slides);
     element("doubt").textContent =
       outcomes.some(other) ? "Other models say otherwise: see the table." : "";
-    element("uncovered").hidden = continuum.covers(e);
-    element("own-force").hidden = state.view !== "forces" || !state.models.includes("continuum");
+    element("uncovered").hidden = continuum.covers(e) || state.beside === "rigid";
+    element("own-force").hidden = state.view !== "forces" || !list.some((style) => style in { elastic: 1, viscous: 1, plastic: 1 });
   }
 
   function show_controls() {
@@ -224,7 +214,12 @@ const page = (() => {
       const typed = element(`${name}-number`);
       if (typed !== document.activeElement) show_typed(name);
     }
-    element("stiffness_ratio").textContent = charts.number(impact.zeta2, 3);
+    element("stiffness_ratio").textContent = charts.number(stiffness_ratio(state.poisson_ratio), 3);
+    element("counted").textContent = charts.number(100 / state.mass_ratio, 0);
+    element("given").textContent =
+      `Ball of radius ${charts.number(state.radius)}\u00A0mm, drawn larger; gravity ` +
+      (state.gravity ? `${charts.number(state.gravity)}\u00A0m/s\u00B2.` : "is left out.");
+    root.dataset.beside = state.beside;
     element("no-ball").hidden = state.mass_ratio >= 2;
     for (const name of CHOICES) element(name).value = state[name];
     element("loss").disabled = state.restitution === 1;
@@ -249,18 +244,16 @@ const page = (() => {
 
   function show_names() {
     const name = models.NAMES[continuum_style()];
-    const lanes = { lumped: models.NAMES.lumped, continuum: name };
-    for (const lane in lanes) {
-      const short = innerWidth < 600 ? lane : lanes[lane];
+    const springs = ["contact without a spring", impact.zeta2 ? "contact with a spring" : "its spring is taken away"];
+    const short_names = state.beside === "rigid" ? ["no spring", impact.zeta2 ? "spring" : "no spring"]
+      : ["lumped", "continuum"];
+    const lanes = state.beside === "rigid" ? springs : [models.NAMES.lumped, name];
+    ["upper", "lower"].forEach((lane, i) => {
+      const short = innerWidth < 600 ? short_names[i] : lanes[i];
       element(`stage-${lane}-name`).textContent = `\u25CF ${short}:`;
-      document.querySelector(`.patch.${lane} .patch-name`).textContent = `${short}: `;
-    }
-    for (const part of document.querySelectorAll(".of-model")) {
-      part.textContent = models.NAMES[impact.contact.style];
-    }
-    for (const part of document.querySelectorAll(".continuum")) {
-      part.classList.toggle("plastic", continuum_style() === "plastic");
-    }
+      element(`patch-${lane}-name`).textContent = `${short}: `;
+    });
+    element("of-model").textContent = models.NAMES[impact.contact.style];
   }
 
   const show_typed = (name) =>
@@ -268,15 +261,16 @@ const page = (() => {
 
   function refresh() {
     const throw_ = thrown();
-    // Sizes are read before anything changes, which would cost time. Type is larger on a projector,
+    // Sizes are read before anything changes, which would cost time. Type is larger in a wide frame,
     // and a chart is drawn larger with it.
     const wide = width_of("incidence");
+    styles = styles_of_lanes();
     impact = solved(throw_);
-    list = models.chosen(impact, state.models);
-    stage.prepare(throw_, flights);
+    // The continuum is looked at where it flies.
+    const shown = state.models.filter((name) => name !== "continuum" || state.beside === "continuum");
+    list = models.chosen(impact, shown);
+    stage.prepare(throw_, flights, styles);
     now = Math.min(now, stage.duration());
-    element("sentence").textContent = words.sentence(impact);
-    element("of-the-centre").textContent = words.centre(impact);
     if (!embedded) {
       const end = frozen ?? charts.widest(impact);
       scales.incidence = charts.incidence(
@@ -287,7 +281,6 @@ const page = (() => {
     show_names();
     look_closer();
     show_time();
-    document.dispatchEvent(new CustomEvent("impact", { detail: impact }));
   }
 
   const width_of = (name) =>
@@ -309,7 +302,6 @@ const page = (() => {
     const [forces, velocity] = ["forces", "velocity"].map(width_of);
     scales.forces = charts.forces(element("forces"), forces, impact);
     scales.velocity = charts.velocity(element("velocity"), velocity, impact);
-    show_numbers();
     show_energies(1, "before", impact.contact.rows[0].energy);
     show_energies(3, "after", impact.contact.rows.at(-1).energy);
     show_closer();
@@ -358,7 +350,10 @@ const page = (() => {
       state[name] = Math.min(Math.max(value, least), most);
     }
     element("refused").textContent = "";
-    if (!playing) now = 0;
+    if (!playing) {
+      now = 0;
+      play(false);
+    }
     changed();
   }
 
@@ -417,13 +412,15 @@ const page = (() => {
     if (!playing) return;
     const passed = Math.min(time - (last ?? time), 100) / 1000;
     last = time;
-    now = Math.min(now + passed * Number(element("pace").value), stage.duration());
+    now = Math.min(now + passed, stage.duration());
     show_time();
     if (now >= stage.duration()) play(false);
     else requestAnimationFrame(frame);
   }
 
+  // Throws the ball, or goes on. Who wants no motion sees where it went.
   function play(on) {
+    if (on && still.matches) return go_to(stage.duration());
     if (on && now >= stage.duration() - 1e-3) now = 0;
     playing = on;
     last = undefined;
@@ -432,25 +429,10 @@ const page = (() => {
     if (on) requestAnimationFrame(frame);
   }
 
-  // Throws the ball from the hand. Who wants no motion sees where it went.
+  // Throws the ball from the hand.
   function throw_ball() {
-    now = still.matches ? stage.duration() : 0;
-    if (still.matches) show_time();
-    else play(true);
-  }
-
-  // Before a throw the frame glides from the one in which the ball was aimed.
-  function glide_and_throw(from) {
-    if (still.matches || !from) return throw_ball();
-    const begun = performance.now();
-    const turn = (time) => {
-      const share = Math.min(Math.max((time - begun) / GLIDE, 0), 1);
-      stage.glide(from, share * share * (3 - 2 * share));
-      show_time();
-      if (share < 1) requestAnimationFrame(turn);
-      else throw_ball();
-    };
-    requestAnimationFrame(turn);
+    now = 0;
+    play(true);
   }
 
   function go_to(time) {
@@ -463,13 +445,12 @@ const page = (() => {
   element("do-start").addEventListener("click", () => go_to(0));
   element("do-micro").addEventListener("click", () => {
     const time = stage.micro_slip();
-    if (!flights.continuum) tell(element("uncovered").textContent);
+    if (!flights.lower) tell(element("uncovered").textContent);
     else if (time === null) tell("In the first bounce of this throw the contact sticks nowhere.");
     else go_to(time);
   });
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
   document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && root.dataset.mode === "projector") ACTIONS.projector();
     if (embedded && !event.target.matches("input, select, .grasp")) {
       parent.postMessage({ key: event.key }, "*");
     }
@@ -494,15 +475,18 @@ const page = (() => {
       if (!handle.hasPointerCapture(event.pointerId)) return;
       take(move(event));
     });
-    handle.addEventListener("pointerup", () => {
-      const from = stage.hold(false);
+    const let_go = () => {
+      stage.hold(false);
       refresh();
-      release(from);
+    };
+    handle.addEventListener("pointerup", () => {
+      let_go();
+      release();
     });
-    handle.addEventListener("pointercancel", () => stage.hold(false));
+    handle.addEventListener("pointercancel", let_go);
   }
-  on_hand("grasp", (event) => stage.aim_at(event, "continuum"), glide_and_throw);
-  on_hand("other-grasp", (event) => stage.aim_at(event, "lumped"), glide_and_throw);
+  on_hand("grasp", (event) => stage.aim_at(event, "lower"), throw_ball);
+  on_hand("other-grasp", (event) => stage.aim_at(event, "upper"), throw_ball);
   on_hand("knob", (event) => ({ spin: Math.round(stage.spin_at(event) / 5) * 5 }), () => {});
   const invite = (text) => (stage.part("invitation").textContent = text);
   stage.part("grasp").addEventListener("focus", ({ target }) => {
@@ -518,7 +502,8 @@ const page = (() => {
       ArrowDown: turn("speed", -0.2), PageUp: turn("spin", 20), PageDown: turn("spin", -20),
     }[event.key];
     if (change) take(change);
-    else if (event.key === "Enter" || event.key === " ") throw_ball();
+    else if (event.key === "Enter") throw_ball();
+    else if (event.key === " ") play(!playing);
     else return;
     event.preventDefault();
   });
@@ -607,12 +592,10 @@ const page = (() => {
       ? root.dataset.theme === "dark"
       : matchMedia("(prefers-color-scheme: dark)").matches;
 
-  function look({ theme, mode }) {
+  function look(theme) {
     if (theme) root.dataset.theme = theme;
-    if (mode) root.dataset.mode = mode;
     if (embedded) root.dataset.mode = "stage";
     element("do-dark").ariaPressed = is_dark();
-    element("do-projector").ariaPressed = root.dataset.mode === "projector";
   }
 
   let telling;
@@ -625,19 +608,15 @@ const page = (() => {
   const about_impact = () =>
     `θ = ${charts.number(state.angle)}°, µ = ${charts.number(state.friction)}, ` +
     `e = ${charts.number(state.restitution)}, ν = ${charts.number(state.poisson_ratio, 3)}, ` +
-    `m₂/m₁ = ${charts.number(state.mass_ratio)}`;
+    `m₂/m₁ = ${charts.number(state.mass_ratio)}, compliance ${charts.number(state.compliance)}, ` +
+    `${charts.number(state.speed)} m/s, ${charts.number(state.spin)} rad/s` +
+    (state.table ? `, table at ${charts.number(state.table)} m` : "");
 
   const ACTIONS = {
     dark() {
       const theme = is_dark() ? "light" : "dark";
       store("explorer-theme", theme);
-      look({ theme });
-    },
-    projector() {
-      const mode = root.dataset.mode === "projector" ? "desk" : "projector";
-      store("explorer-mode", mode);
-      look({ mode });
-      refresh();
+      look(theme);
     },
     async copy() {
       const link = `${location.href.split("#")[0]}#${address()}`;
@@ -652,7 +631,7 @@ const page = (() => {
       tell("impact.csv has the curves shown and the numbers of this impact.");
     },
     async ball() {
-      const above = [element("sentence").textContent, words.centre(impact)];
+      const above = [element("sentence").textContent];
       files.save("stage.png", await files.picture(element("stage-svg"), above, [about_impact()]));
       tell("stage.png has the picture of the stage.");
     },
@@ -660,10 +639,10 @@ const page = (() => {
       const legend = scales.incidence.curves.map(({ style }) =>
         [element("incidence").querySelector(`polyline.${style}`), models.NAMES[style]]);
       const shown = element("view").selectedOptions[0].textContent;
-      const unit = document.querySelector(".above [data-view]:not([hidden])").textContent;
-      const along = document.querySelector(".under [data-view]:not([hidden])").textContent;
-      const above = [`${shown}: ${unit}`.replace(/\s+/g, " ")];
-      const below = [`against ${along}`.replace(/\s+/g, " "), ...legend, about_impact()];
+      const of = (place) => files.plain(document.querySelector(`${place} [data-view]:not([hidden])`));
+      const [unit, along] = [of(".above"), of(".under")];
+      const above = [`${shown}: ${unit}`];
+      const below = [`against ${along}`, ...legend, about_impact()];
       files.save("curve.png", await files.picture(element("incidence"), above, below));
       tell("curve.png has the curve.");
     },
@@ -692,16 +671,18 @@ const page = (() => {
 
   // The page round a stage says when it becomes dark or light.
   addEventListener("message", ({ data }) => {
-    if (embedded && ["dark", "light"].includes(data?.theme)) look({ theme: data.theme });
+    if (embedded && ["dark", "light"].includes(data?.theme)) look(data.theme);
   });
 
-  look({ theme: stored("explorer-theme"), mode: stored("explorer-mode") });
+  look(stored("explorer-theme"));
   restore();
   addEventListener("popstate", () => {
     const place = location.hash.slice(1);
     // A place on the page, as #main, says no state.
     if (place === "" || place.includes("=")) restore();
   });
+  // Also when the words below it take more lines.
+  new ResizeObserver(changed).observe(element("stage-svg"));
   addEventListener("resize", changed);
 
   // Goes to the state that an address says, as a preset does.

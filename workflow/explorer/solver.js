@@ -336,6 +336,24 @@ const solver = (() => {
     };
   }
 
+  // The whole contact in this limit, as `history` gives it: friction ends where the point stops.
+  function rigid_history(x, beta, e, samples = 400) {
+    const end = 1 + e;
+    const stop = Math.min(x / beta, end); // impulse at which the contact point has come to rest
+    const halt = stop <= 1 ? time(Math.acos(1 - stop), e, false)
+      : time(Math.acos(Math.min((stop - 1) / e, 1)), e, true);
+    const grid = Array.from({ length: samples }, (_, i) => (i / (samples - 1)) * end);
+    const instants = [...grid.filter((t) => t !== halt), halt].sort((a, b) => a - b);
+    return instants.map((t) => {
+      const in_restitution = t > 1;
+      const eta = e || !in_restitution ? angle(t, e, in_restitution) : 0;
+      const passed = in_restitution ? 1 + e * (1 - impulse(eta)) : impulse(eta);
+      const sticks = t >= halt && stop < end;
+      return { time: t, normal: force(eta), friction: sticks ? 0 : force(eta),
+        velocity: Math.max(x - beta * passed, 0), sticks, side: 1, in_restitution };
+    });
+  }
+
   // The contact at `samples` instants evenly spread, and where each phase starts: time t/t_c,
   // normal force and friction in m2 Omega v2(0) and mu times that, velocity in mu v2(0), whether it
   // sticks, the direction of slip, and whether it is in restitution.
@@ -372,5 +390,5 @@ const solver = (() => {
     });
   }
 
-  return { rebound, rigid_rebound, slip_throughout_limit, history };
+  return { rebound, rigid_rebound, slip_throughout_limit, history, rigid_history };
 })();

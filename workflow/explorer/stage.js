@@ -1,13 +1,13 @@
 "use strict";
 
-// The stage: two balls thrown alike, one by the lumped model and one by the continuum, each above its
-// own floor and below the name of its model; and what the contact of each looks like. The time of the
-// show, in seconds, stretches each contact.
+// The stage: two balls thrown alike, the upper one by one model and the lower one by another, each
+// above its own floor and below the name of its model; and what the contact of each looks like. The
+// time of the show, in seconds, stretches each contact.
 const stage = (() => {
-  const SLOW_FLIGHT = 3; // times slower than in nature
+  const SLOW_FLIGHT = 3; // times slower than in nature, and under a table, where flights are short
+  const SLOW_BELOW = 10;
   const FIRST_CONTACT = 1.5; // s that one t_c takes in the first bounce, and in the others
-  const LATER_CONTACT = 0.6;
-  const FLASH = 0.04; // s between two images of a ball, at least
+  const LATER_CONTACT = 1;
   const SHOWN = 3; // flights that the frame shows; later ones may leave it
   const STEP = 0.012; // s between two corners of a path
   const RADIANS_A_SECOND = 80; // of spin that turns the knob by one radian
@@ -15,7 +15,9 @@ const stage = (() => {
   // which the scale stands.
   const [NAME, FLOOR, BASE] = [24, 9, 24];
   const RULERS = [5, 1, 0.5, 0.1]; // m; the first that takes at most a sixth of the width
-  const LANES = ["lumped", "continuum"];
+  const slower = () => (shown.given.table ? SLOW_BELOW : SLOW_FLIGHT);
+  const LANES = ["upper", "lower"];
+  const LENS = 64; // px, radius of the magnifying glass at most
   const element = (id) => document.getElementById(id);
   const svg = element("stage-svg");
   const part = (name) => element(`stage-${name}`);
@@ -23,7 +25,6 @@ const stage = (() => {
   let shown; // what `prepare` was given, and what follows from it
   let frame; // of the picture: see `framed`
   let held; // the frame while the ball is aimed
-  let aimed_frame; // the one that shows its throw
 
   // ---- the show in time ---------------------------------------------------------------------
 
@@ -35,7 +36,7 @@ const stage = (() => {
     first.forEach((one, i) => {
       const end = Math.max(one.contact?.end ?? 0, second?.[i]?.contact?.end ?? 0);
       const pace = list.some(({ kind }) => kind === "bounce") ? LATER_CONTACT : FIRST_CONTACT;
-      const length = one.kind === "flight" ? SLOW_FLIGHT * one.time : pace * end;
+      const length = one.kind === "flight" ? slower() * one.time : pace * end;
       list.push({ kind: one.kind, index: i, start, length, end });
       start += length;
     });
@@ -45,7 +46,7 @@ const stage = (() => {
   // The show ends with the last flight, or when a ball reaches the edge of the frame.
   function ended() {
     const last = shown.segments.at(-1);
-    const leaving = Object.entries(shown.traces).map(([lane, { corners }]) =>
+    const leaving = Object.entries(shown.traces).map(([lane, corners]) =>
       corners.find((corner) => {
         const [x] = place_of(corner, lane);
         return x < frame.radius || x > frame.width - frame.radius;
@@ -93,7 +94,7 @@ const stage = (() => {
     const height = Math.max(svg.clientHeight, 120);
     const floor = height - BASE; // of the lower lane
     const sky = (floor - 2 * NAME - FLOOR) / 2; // of each lane
-    const radius = Math.min(24, sky / 6) * (gap ? 0.65 : 1);
+    const radius = Math.min(24, sky / 6) * (gap ? 0.8 : 1);
     const places = [0];
     const heights = [gap || 0.3];
     const count = gap ? Infinity : SHOWN;
@@ -113,13 +114,13 @@ const stage = (() => {
     const used = Math.min((right - left) * scale, room);
     const origin = 2 * radius - left * scale + (room - used) / 2;
     // Pixels for 1 m/s of the ball in the hand: its arrow ends above the floor.
-    const [{ ball }] = flights.lumped;
+    const [{ ball }] = flights.upper;
     const free = scale * ball.height + radius;
     const aim = Math.min(18, width / 36, free / Math.max(-ball.up, 0.1));
     return { width, height, radius, floor, upper: NAME + sky, scale, origin, gap, aim };
   }
 
-  const floor_of = (lane) => (lane === "lumped" ? frame.upper : frame.floor);
+  const floor_of = (lane) => (lane === "upper" ? frame.upper : frame.floor);
 
   const place_of = ({ place, height }, lane) => [
     frame.origin + frame.scale * place,
@@ -128,46 +129,37 @@ const stage = (() => {
 
   // ---- drawing ------------------------------------------------------------------------------
 
-  // Corners of the path of a lane and the instants of its images, with the time of the show.
-  function traced(parts, list, flash) {
-    const corners = [];
-    const images = [];
-    let passed = 0;
-    parts.forEach((one, i) => {
-      if (one.kind !== "flight") return;
+  // Corners of the path of a lane, with the time of the show.
+  function traced(parts, list) {
+    return parts.flatMap((one, i) => {
+      if (one.kind !== "flight") return [];
       const { start, length } = list[i];
       const steps = Math.max(Math.ceil(one.time / STEP), 1);
-      for (let k = 0; k <= steps; k++) {
-        corners.push({ now: start + (length * k) / steps,
-          ...flight.later(one.ball, (one.time * k) / steps) });
-      }
-      for (; passed < one.time && flash < Infinity; passed += flash) {
-        images.push({ now: start + SLOW_FLIGHT * passed, ...flight.later(one.ball, passed) });
-      }
-      passed = Math.max(passed - one.time, 0);
+      return Array.from({ length: steps + 1 }, (_, k) => ({
+        now: start + (length * k) / steps, ...flight.later(one.ball, (one.time * k) / steps) }));
     });
-    return { corners, images };
   }
 
-  function prepare(given, flights) {
+  // `styles` are the models of the lanes; one that has no answer has no flights.
+  function prepare(given, flights, styles) {
     const gap = given.table ? given.table - 2 * given.radius : 0;
-    const list = segments(flights);
-    shown = { given, flights, segments: list, drawn: {} };
-    aimed_frame = framed(flights, gap);
-    // Under a table the paths cross, and images would hide them.
-    const { radius, scale } = aimed_frame;
-    const flash = gap ? Infinity
-      : Math.max(FLASH, (1.5 * radius) / scale / Math.max(given.speed, 1));
+    shown = { given, flights, styles };
+    const list = (shown.segments = segments(flights));
+    const speeds = Object.values(flights).flat().map(({ x, unit }) => (x ?? 0) * unit || 0);
+    shown.fastest = Math.max(...speeds) || 1;
     shown.traces = Object.fromEntries(
-      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list, flash)]));
-    put_frame(held ?? aimed_frame);
-    for (const lane of LANES) part(lane).classList.toggle("absent", !flights[lane]);
+      Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list)]));
+    put_frame(held ?? framed(flights, gap));
+    for (const lane of LANES) {
+      part(lane).setAttribute("class", `lane ${styles[lane]} ${flights[lane] ? "" : "absent"}`);
+      part(`${lane}-words`).setAttribute("class", `lane-name ${styles[lane]}`);
+      element(`patch-${lane}-figure`).setAttribute("class", `patch ${styles[lane]}`);
+    }
   }
 
   // Draws what stands still in a frame.
   function put_frame(new_frame) {
     frame = new_frame;
-    shown.drawn = {};
     shown.end = ended();
     const { width, height, radius, floor, upper, scale, gap } = frame;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -177,7 +169,10 @@ const stage = (() => {
     const under = scale * gap + 2 * radius; // the table of a lane, above its floor
     part("table").setAttribute("d", !gap ? "" :
       [upper, floor].map((low) => board(low - under - 5, low - under)).join(""));
-    element("lane-continuum").setAttribute("y", upper + FLOOR + NAME - 6);
+    part("table-word").textContent = gap ? "table" : "";
+    part("table-word").setAttribute("x", width - 12);
+    part("table-word").setAttribute("y", upper - under - 9);
+    part("lower-words").setAttribute("y", upper + FLOOR + NAME - 6);
     const [end, line] = [width - 12, floor + BASE / 2];
     const metres = RULERS.find((one) => scale * one < width / 6) ?? RULERS.at(-1);
     part("ruler").setAttribute("d", `M${end},${line - 4}v8m0,-4h${-scale * metres}m0,-4v8`);
@@ -188,20 +183,14 @@ const stage = (() => {
     show_hand();
   }
 
-  // Between the frame in which the ball was aimed and the one that shows its throw.
-  function glide(from, share) {
-    const mixed = { ...aimed_frame };
-    for (const name in mixed) mixed[name] = from[name] + share * (aimed_frame[name] - from[name]);
-    put_frame(share < 1 ? mixed : aimed_frame);
-  }
-
   // Numbers beside the name of each lane.
   const speed_words = ({ along, spin }) => {
     const way = along < -0.005 ? "back" : "forwards";
     const senses = frame.width < 600 ? ["\u21BB", "\u21BA"] : ["clockwise", "anticlockwise"];
     const turning = Math.abs(spin) < 0.5 ? "no spin" :
       `${Math.abs(spin).toFixed(0)} rad/s ${senses[spin > 0 ? 0 : 1]}`;
-    return `${Math.abs(along).toFixed(1)} m/s ${way}, ${turning}`;
+    const going = Math.abs(along) < 0.05 ? "" : `${Math.abs(along).toFixed(1)} m/s ${way}, `;
+    return `${going}${turning}`;
   };
 
   function show_lane(lane, now, at_moment) {
@@ -217,35 +206,36 @@ const stage = (() => {
     const size = radius / 20;
     part(`${lane}-ball`).setAttribute("transform",
       `translate(${x.toFixed(1)},${y.toFixed(1)}) rotate(${degrees.toFixed(1)}) scale(${size})`);
-    const { corners, images } = shown.traces[lane];
+    const corners = shown.traces[lane];
     const until = corners.findIndex((corner) => corner.now > now);
     const behind = (until < 0 ? corners : corners.slice(0, until)).map((one) => place_of(one, lane));
     behind.push([x, y]);
     part(`${lane}-path`).setAttribute("d",
       `M${behind.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join("L")}`);
-    const count = images.filter((image) => image.now <= now).length;
-    if (shown.drawn[lane] !== count) {
-      shown.drawn[lane] = count;
-      part(`${lane}-images`).setAttribute("d", images.slice(0, count).map((image) => {
-        const [a, b] = place_of(image, lane);
-        const [u, v] = [radius * Math.sin(image.turn), -radius * Math.cos(image.turn)];
-        return `M${a - radius},${b}a${radius},${radius} 0 1 0 ${2 * radius},0a${radius},${radius}` +
-          ` 0 1 0 ${-2 * radius},0M${(a - u).toFixed(1)},${(b - v).toFixed(1)}` +
-          `L${(a + u).toFixed(1)},${(b + v).toFixed(1)}`;
-      }).join(""));
-    }
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
-    const arrow = bounce ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
+    const arrow = bounce && !(row && with_springs())
+      ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
     part(`${lane}-slip`).setAttribute("d", arrow);
-    const label = part(`${lane}-slip-words`);
-    label.style.visibility = arrow && !frame.gap ? "visible" : "hidden";
-    // Above the arrow and beside the ball, where there is more room.
-    const [ahead, long] = [x < frame.width / 2, label.getComputedTextLength()];
-    const start = ahead ? x + radius + 8 : x - radius - 8 - long;
-    label.setAttribute("x", Math.max(8, Math.min(start, frame.width - 8 - long)));
-    label.setAttribute("y", foot - 8);
-    part(`${lane}-numbers`).textContent = speed_words(ball);
-    patch_of(lane, bounce, row);
+    part(`${lane}-numbers`).textContent = row && with_springs() && narrow()
+      ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
+    part(`${lane}-lens`).innerHTML = row && with_springs() ? lens_of(lane, bounce, row, [x, foot]) : "";
+    if (!with_springs()) patch_of(lane, bounce, row);
+  }
+
+  // Both lanes have one contact point, with a spring or without: the scene of the lower lane's spring.
+  const springy = (lane) => lane === "lower" && shown.given.groups.zeta2 > 0;
+  const narrow = () => frame.width < 480; // then words stand above the ball
+  const with_springs = () => shown.styles.lower === "lumped";
+
+  // The magnifying glass beside the ball, where there is more room.
+  function lens_of(lane, bounce, now, tip) {
+    const size = Math.min(LENS, (frame.upper - NAME) / 2 - 3);
+    const side = tip[0] < frame.width / 2 ? 1 : -1;
+    const x = tip[0] + side * (frame.radius + 14 + size);
+    const y = floor_of(lane) - (frame.upper - NAME) / 2 + 2;
+    const up = bounce.wall === "table" ? -1 : 1;
+    return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign, up, springy: springy(lane), x, y,
+      size, tip, side, worded: !narrow() });
   }
 
   // Pixels for 1 m/s, of arrows.
@@ -254,7 +244,7 @@ const stage = (() => {
   function patch_of(lane, bounce, row) {
     const style = bounce?.contact.style;
     const { e } = shown.given.groups;
-    const motion = style && style !== "lumped" ? continuum.normal(e, style) : null;
+    const motion = style && lane === "lower" ? continuum.normal(e, style) : null;
     const zones = patch.show(lane, row, bounce?.sign ?? 1, motion);
     element(`patch-${lane}-words`).textContent = patch.words(zones);
   }
@@ -265,9 +255,10 @@ const stage = (() => {
     const { segment } = at_moment;
     const bounces = shown.segments.slice(0, segment.index + 1)
       .filter(({ kind }) => kind === "bounce").length;
+    shown.bounces = bounces - (segment.kind === "bounce");
     part("moment").textContent = segment.kind === "bounce"
       ? `bounce ${bounces}, in slow motion`
-      : now === 0 ? "" : `in flight, ${SLOW_FLIGHT} times slower`;
+      : now === 0 ? "" : now >= shown.end - 1e-3 ? "the end" : `in flight, ${slower()} times slower`;
     svg.classList.toggle("waiting", now === 0);
   }
 
@@ -275,13 +266,13 @@ const stage = (() => {
 
   function show_hand() {
     const ball = flight.start(shown.given);
-    const [x, y] = place_of(ball, "continuum");
+    const [x, y] = place_of(ball, "lower");
     const { radius } = frame;
     const k = frame.aim;
     part("hand").setAttribute("transform", `translate(${x.toFixed(1)},${y.toFixed(1)})`);
     const reach = Math.max(radius + 8, 24);
     part("grasp").setAttribute("r", reach);
-    const [back_x, back_y] = place_of(ball, "lumped");
+    const [back_x, back_y] = place_of(ball, "upper");
     part("other-grasp").setAttribute("cx", back_x - x);
     part("other-grasp").setAttribute("cy", back_y - y);
     part("other-grasp").setAttribute("r", reach);
@@ -294,7 +285,7 @@ const stage = (() => {
     // Beside the arrow; where there is no room, below or above it.
     const words = part("aim-words");
     words.textContent = `${shown.given.speed.toFixed(1)} m/s at the floor`;
-    const beside = Math.max(right, radius) + 8;
+    const beside = Math.max(right, reach) + 8;
     const most = frame.width - x - words.getComputedTextLength() - 8;
     const low = frame.floor - y - 7;
     const near = beside < most ? Math.min(down + 5, low) : down > 20 ? low : -reach - 6;
@@ -323,25 +314,23 @@ const stage = (() => {
   // Spin by the angle at which the knob stands round the ball.
   function spin_at(event) {
     const point = point_of(event);
-    const [x, y] = place_of(flight.start(shown.given), "continuum");
+    const [x, y] = place_of(flight.start(shown.given), "lower");
     const turn = Math.atan2(point.x - x, y - point.y);
     // More than half a turn goes on where it is.
     const whole = Math.round((shown.given.spin / RADIANS_A_SECOND - turn) / (2 * Math.PI));
     return RADIANS_A_SECOND * (turn + 2 * Math.PI * whole);
   }
 
-  // Keeps the frame while the ball is aimed; lets it go, and returns it.
+  // Keeps the frame while the ball is aimed, and lets it go.
   function hold(on) {
-    const before = held;
     held = on ? frame : undefined;
     if (!on) part("band").setAttribute("d", "");
-    return before;
   }
 
   // The time at which the first bounce of the continuum has a slipping edge that is easy to see.
   function micro_slip() {
-    const bounce = shown.flights.continuum?.find(({ kind }) => kind === "bounce");
-    if (!bounce) return null;
+    const bounce = shown.flights.lower?.find(({ kind }) => kind === "bounce");
+    if (!bounce || with_springs()) return null;
     const ring = ({ slips, touching }) => {
       const inside = [...slips].slice(0, touching);
       const held_inside = inside.filter((slip) => slip === 0).length;
@@ -354,5 +343,8 @@ const stage = (() => {
     return segment.start + (best.time / segment.end) * segment.length;
   }
 
-  return { prepare, show, duration, first_bounce, aim_at, spin_at, hold, glide, micro_slip, part };
+  // Bounces that are over, and whether the show is.
+  const progress = (now) => ({ bounces: shown.bounces, over: now >= shown.end - 1e-3 });
+
+  return { progress, prepare, show, duration, first_bounce, aim_at, spin_at, hold, micro_slip, part };
 })();

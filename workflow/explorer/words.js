@@ -1,28 +1,32 @@
 "use strict";
 
-// What happens, in plain words.
+// What happens, in plain words. Forwards is the way of the throw, on the stage to the right.
 const words = (() => {
   const way = (sign) => (sign > 0 ? "forwards" : "backwards");
+
+  const STILL = 0.005; // m/s
+  const SLOW = 0.05; // m/s: less is 0.0 where one digit is shown
+  const TINY = 1e-9; // incidence of a contact point that rolls, but for rounding
 
   function percent(share) {
     return `${(100 * share).toFixed(share < 0.095 ? 1 : 0)}\u00A0%`;
   }
 
   // In the continuum a contact that sticks does so in its middle; its edge slips.
-  function order({ phases, contact: { style } }) {
+  function order({ phases, sign, contact: { style } }) {
     const sticks = style === "lumped" ? "sticks" : "sticks in the middle";
-    const verb = (phase) => (phase.sticks ? sticks : `slips ${way(phase.side)}`);
+    const verb = (phase) => (phase.sticks ? sticks : `slips ${way(sign * phase.side)}`);
     if (phases.length === 1) return `the contact ${verb(phases[0])} throughout`;
     if (phases.length > 4) return `the contact sticks and slips in turn, ${phases.length} times in all`;
     const [first, ...others] = phases.map(verb);
     return `the contact ${first} first, ${others.map((one) => `then ${one}`).join(", ")}`;
   }
 
-  function end({ x, e, contact: { state } }) {
+  function end({ x, e, sign, contact: { state } }) {
     const share = Math.abs(state.velocity) / x;
     const leaves = e === 0 ? "does not bounce off, and moves on" : "leaves";
     if (share < models.STOPPED) return `The contact point ${leaves} without tangential velocity`;
-    const how = `${leaves} ${way(state.velocity)}`;
+    const how = `${leaves} ${way(sign * state.velocity)}`;
     return `The contact point ${how}, with ${percent(share)} of the tangential velocity that it came with`;
   }
 
@@ -37,11 +41,68 @@ const words = (() => {
   // What the centre of the ball does.
   function centre({ before, after, e }) {
     const turned = Math.sign(after.along) * Math.sign(before.along) < 0;
-    const goes = Math.abs(after.along) < 0.005 ? "does not move along the surface"
+    const goes = Math.abs(after.along) < STILL ? "does not move along the surface"
+      : Math.abs(before.along) < STILL ? `sets off ${way(after.along)}`
       : turned ? "turns back" : "goes on";
     const angle = (Math.atan2(Math.abs(after.along), after.up) * 180) / Math.PI;
     const leaving = e === 0 ? "" : ` and leaves at ${angle.toFixed(0)}\u00B0 to the normal`;
     return `Its centre ${goes}${leaving}.`;
+  }
+
+  // ---- the throw under springs: what each bounce has done -----------------------------------
+
+  // The contact point of one bounce, and what follows for the ball.
+  function bounced({ x, ball, after, contact: { style, state, rows } }, springy) {
+    const share = x > TINY ? state.velocity / x : 0;
+    const swung = rows.some(({ velocity }) => velocity < -models.STOPPED * x);
+    const stuck = models.phases(rows).some(({ sticks }) => sticks);
+    const left = `at ${percent(Math.abs(share))} of the speed it came with`;
+    const point = x <= TINY ? "nothing slid"
+      : Math.abs(share) < models.STOPPED ? "the contact point stopped"
+      : !stuck ? `the contact slipped throughout, and its point ${share > 0 ? "went on" : "turned back"}`
+      : share > 0 && swung ? `the spring threw the contact point back and then forwards again, ${left}`
+      : share > 0 ? `the contact ended while the contact point still went on, ${left}`
+      : `the spring recoiled and threw the contact point back, ${left}`;
+    const verb = Math.abs(ball.along) < SLOW ? "sets off" : ball.along * after.along < 0 ? "turns round"
+      : after.along < 0 ? "comes back" : "goes on";
+    const goes = Math.abs(after.along) < SLOW ? "hardly moves along the surface"
+      : `${verb}, ${Math.abs(after.along).toFixed(1)} m/s ${way(after.along)}`;
+    return `${point}; the ball ${goes}.`;
+  }
+
+  // What has happened in this throw up to now, in a line: `upper` and `lower` are the bounces of the
+  // ball on a rigid contact and of that on a spring, of which `count` are over.
+  function story({ upper, lower }, count, over, springy) {
+    if (!count) {
+      return springy ? "The same throw twice. Only the lower ball has a spring along the surface."
+        : "The same throw twice. Neither ball has a spring along the surface: both contacts are rigid.";
+    }
+    const { wall } = lower[count - 1];
+    const rigid = bounced(upper[count - 1], false);
+    const last = `After bounce ${count} (${wall}). ` + (springy
+      ? `With the spring: ${bounced(lower[count - 1], true)} Without: ${rigid}` : `Both: ${rigid}`);
+    return (over && ending(upper, lower, springy)) || last;
+  }
+
+  // What a throw forwards has come to, if the balls tell with spring and without what the spring does.
+  function ending(upper, lower, springy) {
+    const forwards = ({ after }) => after.along > SLOW;
+    const stopped = upper.every(({ contact: { state } }) => state.velocity === 0);
+    if (lower[0].ball.along <= SLOW || !upper.every(forwards) || !stopped) return "";
+    const end = "Without a spring the contact point stops, and the ball goes on.";
+    if (!springy) return `Both balls went on. ${end}`;
+    if (lower.every(forwards)) {
+      return "The ball with the spring went on, too. Timing decides: the spring turns the ball round only if " +
+        "the contact ends while the spring throws the contact point back hard enough.";
+    }
+    // The spin of an earlier bounce turns it, once.
+    const turned = lower.findIndex((one) => !forwards(one));
+    const thrown = lower.every((one) => bounced(one, true).includes("recoiled"));
+    const back = lower.slice(turned).every(({ after }) => after.along < -SLOW);
+    if (turned === 0 || !thrown || !back) return "";
+    return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
+      `back. So the ball spun fast, its ${lower[turned].wall === "table" ? "highest" : "lowest"} point ran forwards ` +
+      `into the ${lower[turned].wall}, and friction there turned it round. ${end}`;
   }
 
   const listed = (outcomes) => outcomes.map((one) => one.name).join("; ");
@@ -50,7 +111,7 @@ const words = (() => {
   function agreement(all) {
     const speaking = all.filter((one) => !one.mute);
     const rigid = speaking.length < all.length
-      ? " The rigid limit has no spring: it only stops." : "";
+      ? " The rigid limit has no spring: the contact point stops without rebound." : "";
     if (!all.length) return { agrees: true, text: "No model is chosen: tick one above." };
     if (speaking.length < 2) return { agrees: true, text: rigid.trim() };
     const split = (parts) =>
@@ -77,5 +138,5 @@ const words = (() => {
     return { agrees: true, text: `The models shown agree on the direction.${rigid}` };
   }
 
-  return { sentence, centre, agreement };
+  return { sentence, centre, story, agreement };
 })();

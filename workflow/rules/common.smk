@@ -143,4 +143,12 @@ def summary(stopped):
         {name for name, job in gates.items() if dag.finished(job) and not workflow.touch},
         stopped,
         workflow.config_settings.config_args or [],
+        [path for job in dag.targetjobs for path in job.output if path in done],
     )
+
+
+def notice():
+    """What a run says before it begins, if it is long and was not asked for by the main command."""
+    if any(job.rule.name == "site" for job in workflow.dag.needrun_jobs()):
+        return "site: where nothing is made yet, all pages take five minutes of processor time.\n"
+    return ""

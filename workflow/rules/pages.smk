@@ -52,19 +52,20 @@ rule report:
 
 
 rule lecture:
-    """Run one notebook: a lecture that checks the numbers that it states."""
+    """Run one lecture, compare the numbers that its texts state, and write its pages."""
     input:
         versions="results/versions.json",
         notebook="workflow/notebooks/{notebook}.ipynb",
+        numbers="workflow/notebooks/{notebook}.yaml",
         tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/curves/trade.csv"),
         style="workflow/notebooks/lecture.mplstyle",
         page="workflow/report/notebook.html",
         slides="workflow/report/slides.html",
         parts=[*EVERY_PAGE, "workflow/report/model.svg"],
     output:
-        executed="results/notebooks/{notebook}.ipynb",
         page="figures/{notebook}.html",
         slides="figures/slides_{notebook}.html",
+        student="figures/student_{notebook}.ipynb",
         answers="figures/answers_{notebook}.html",
     log:
         "results/logs/lecture_{notebook}.log",
@@ -133,16 +134,14 @@ PAGES = [
 
 
 rule site:
-    """All pages and the interface of the solver in one folder and as a zip file; not part of `all`."""
+    """All pages for students and readers, in one folder and as a zip file: five minutes of processor time."""
     input:
         made=[
-            *PAGES,
+            *(path for path in PAGES if "answers_" not in path),  # which are for the teacher
             *made(JUDGED),
             *expand("results/verdicts/{judged}.csv", judged=JUDGED),
             "results/ledger.csv",
         ],
-        notebooks=expand("results/notebooks/{notebook}.ipynb", notebook=NOTEBOOKS)
-        + ["workflow/notebooks/lecture.mplstyle"],
         texts=["LICENSE", "CITATION.cff"],
         parts=["workflow/report/index.html", *EVERY_PAGE],
         style=expand("workflow/report/interface/{part}", part=["frame.html.jinja2", "custom.css"]),

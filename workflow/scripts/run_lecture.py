@@ -1,4 +1,4 @@
-"""Run one notebook; keep it executed, as a page, as slides and as a sheet of answers."""
+"""Run one lecture; write its page, slides, sheet of answers and notebook for students."""
 
 from stronge1994 import logs
 
@@ -8,4 +8,5 @@ from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
 from stronge1994.pages import lectures
 
 given = snakemake.input
-lectures.run(given.notebook, {"page": given.page, "slides": given.slides}, snakemake.output)
+templates = {"page": given.page, "slides": given.slides}
+lectures.run(given.notebook, given.numbers, templates, snakemake.output)

@@ -8,6 +8,6 @@ from stronge1994.pages import interface, site
 
 given, folder = snakemake.input, snakemake.output.folder
 pages = [path for path in given.made if path.startswith("figures/")]
-site.write(folder, pages, given.notebooks, given.texts)
+site.write(folder, pages, given.texts)
 interface.write(f"{folder}/interface")
 site.pack(folder, snakemake.output.archive)

@@ -22,8 +22,8 @@ def answers(limits: Mapping[str, Sequence[float]]) -> list[Answer]:
 
     `limits` holds the smallest and the largest value of each slider, angles in degrees.
 
-    >>> limits = dict.fromkeys(("angle", "friction", "restitution", "poisson_ratio"), (0.2, 0.4))
-    >>> len(answers(limits | {"mass_ratio": (1, 10)})) > COUNT
+    >>> names = "angle", "friction", "restitution", "poisson_ratio", "compliance"
+    >>> len(answers(dict.fromkeys(names, (0.2, 0.4)) | {"mass_ratio": (1, 10)})) > COUNT
     True
     """
     return _lumped(limits) + _continuum()
@@ -53,7 +53,8 @@ def _lumped(limits: Mapping[str, Sequence[float]]) -> list[Answer]:
     draw = {name: rng.uniform(limit[0], limit[1], COUNT) for name, limit in limits.items()}
     nu = draw["poisson_ratio"]
     incidence = np.tan(np.radians(draw["angle"])) / draw["friction"]
-    groups = [incidence, draw["mass_ratio"], (2 - nu) / (2 * (1 - nu)), draw["restitution"]]
+    stiffness_ratio = draw["compliance"] * (2 - nu) / (2 * (1 - nu))
+    groups = [incidence, draw["mass_ratio"], stiffness_ratio, draw["restitution"]]
     for beta, zeta2 in ((3.5, 1.25), (10.0, 1.0)):
         for e in (0.0, 0.3, 0.9, 1.0):
             limit = float(lumped.slip_throughout_limit(beta, zeta2, e))

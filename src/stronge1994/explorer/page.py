@@ -25,7 +25,8 @@ LIMITS = {
     "speed": (0.5, 12, 0.1),  # m/s
     "spin": (-400, 400, 5),  # rad/s
     "table": (0, 2, 0.05),  # m
-    "radius": (1, 200, 1),  # mm; this and the next one have no slider
+    "compliance": (0, 1, 0.01),  # along the surface, over that of the body
+    "radius": (1, 200, 1),  # mm
     "gravity": (0, 30, 0.01),  # m/s^2
 }
 # The controls that a figure of the paper sets; the others are as the page opens.
@@ -40,11 +41,11 @@ SCRIPTS = [
     "arrows",
     "patch",
     "diagram",
+    "lens",
     "stage",
     "words",
     "files",
     "page",
-    "challenge",
 ]
 # Largest error of the continuum of the page, in mu v2(0) and in the largest normal force.
 CONTINUUM_ERROR = 0.01

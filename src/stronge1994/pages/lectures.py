@@ -1,14 +1,15 @@
-"""Run a notebook and write it with its outputs, as a page, as slides and as a sheet of answers.
+"""Run a lecture, and write it as a page, slides, a sheet of answers and a notebook for students.
 
 nbconvert makes the pages. Cells that have the tag `answer` stand on the sheet alone, for the
-teacher. What stands on a slide is what JupyterLab calls the slide type of a cell.
+teacher, and those with `student` in the notebook alone. What stands on a slide is what JupyterLab
+calls the slide type of a cell. Numbers that the texts state are compared with what the cells give.
 """
 
 import os
 import re
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,14 +22,14 @@ from nbconvert import HTMLExporter, SlidesExporter
 from nbconvert.filters import strip_ansi
 from traitlets.config import Config
 
+from stronge1994.pages import stated_numbers, student
+
 # How pictures are written: without a date, and as wide as they are drawn.
 PICTURE = {"metadata": {"Date": None}, "bbox_inches": None}
 # Longest time of a cell, in seconds.
 CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
-WITHOUT_ANSWERS = Config(
-    {"TagRemovePreprocessor": {"enabled": True, "remove_cell_tags": ["answer"]}}
-)
+EXPORTERS = {"page": HTMLExporter, "answers": HTMLExporter, "slides": SlidesExporter}
 # A paragraph that is only a link to the stage of the explorer, or only a picture that is a file.
 # `?stage=micro` opens the stage at the instant of micro-slip.
 STAGE = re.compile(
@@ -67,30 +68,27 @@ class ThisPython(AsyncKernelManager):
         return KernelSpec(argv=[sys.executable, *arguments], language="python")
 
 
-def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) -> None:
-    """Run `notebook` from its first cell to its last and write all results.
+def run(notebook: str, table: str, templates: Mapping[str, str], made: Mapping[str, str]) -> None:
+    """Run `notebook` from its first cell to its last, compare it with its `table`, and write all.
 
-    `made["executed"]` becomes the notebook with its outputs, `made["page"]` and `made["answers"]`
-    pages made with the Jinja template `templates["page"]`, and `made["slides"]` with
-    `templates["slides"]`. A `NotebookError` says in one line which cell failed, in which line and
-    why; or that one took too long, or ended the kernel.
+    `made["page"]` and `made["answers"]` become pages, made with the Jinja template
+    `templates["page"]`, `made["slides"]` one with `templates["slides"]`, and `made["student"]` the
+    notebook for students. A `NotebookError` says in one line which cell failed, in which line and
+    why; or which text states another number; or that a cell took too long, or ended the kernel.
     """
-    book = nbformat.read(notebook, as_version=4)
-    _execute(book, notebook)
-    texts = {made["executed"]: nbformat.writes(book) + "\n"}
+    book, folder = nbformat.read(notebook, as_version=4), Path(notebook).parent
+    texts = {made["student"]: nbformat.writes(student.notebook(book, folder)) + "\n"}
+    _execute(book, stated_numbers.read(table, book.cells), notebook)
     for cell in book.cells:
         if cell.cell_type == "markdown":
             cell.source = on_a_page(cell.source, Path(templates["page"]).parent)
-    page = str(templates["page"])
-    exporters = {
-        "page": HTMLExporter(template_file=page, config=WITHOUT_ANSWERS),
-        "answers": HTMLExporter(template_file=page),
-        "slides": SlidesExporter(template_file=str(templates["slides"])),
-    }
-    for kind, exporter in exporters.items():
-        exporter.exclude_anchor_links = exporter.exclude_output_prompt = True
+    for kind, exporter in EXPORTERS.items():
+        others = {"student"} if kind == "answers" else {"student", "answer"}
+        rest = Config({"TagRemovePreprocessor": {"enabled": True, "remove_cell_tags": others}})
+        one = exporter(template_file=str(templates.get(kind, templates["page"])), config=rest)
+        one.exclude_anchor_links = one.exclude_output_prompt = True
         resources = {"metadata": {"name": Path(made["page"]).stem}, "kind": kind}
-        texts[made[kind]] = exporter.from_notebook_node(book, resources)[0]
+        texts[made[kind]] = one.from_notebook_node(book, resources)[0]
     for path, text in texts.items():
         Path(path).write_text(text, encoding="utf-8")
 
@@ -123,12 +121,13 @@ def on_a_page(source: str, folder: Path) -> str:
     return source.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
 
 
-def _execute(book: Any, notebook: str) -> None:
-    """Run the cells of `book`, which then holds their outputs."""
+def _execute(book: Any, rows: Sequence[stated_numbers.Row], notebook: str) -> None:
+    """Run the cells of `book`, which then holds their outputs, and compare `rows` between them."""
+    whole = nbformat.NotebookNode(book, cells=stated_numbers.with_cells(book.cells, rows))
     with tempfile.TemporaryDirectory() as scratch:
         place = {"transport": "ipc", "connection_file": f"{scratch}/kernel.json"}
         client = NotebookClient(
-            book,
+            whole,
             kernel_manager_class=ThisPython,
             config=Config({"ThisPython": place}),
             timeout=CELL_TIMEOUT,
@@ -151,12 +150,13 @@ def _execute(book: Any, notebook: str) -> None:
 def _environment(scratch: str) -> dict[str, str]:
     """Variables of the kernel: the sources of this checkout, and no settings of the user."""
     places = dict.fromkeys(("IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_RUNTIME_DIR"), scratch)
-    # The lectures check their numbers by assertions, which PYTHONOPTIMIZE would switch off.
-    return os.environ | {"PYTHONPATH": str(SRC), "PYTHONOPTIMIZE": ""} | places
+    return os.environ | {"PYTHONPATH": str(SRC)} | places
 
 
 def _failure(book: Any, error: Any) -> str:
-    """Number of the cell that failed, its failing line, and the error."""
+    """Number of the cell that failed, its failing line, and the error; or the wrong number."""
+    if error.ename == stated_numbers.WrongNumberError.__name__:
+        return error.evalue
     number, cell = next(
         (n, cell)
         for n, cell in enumerate(book.cells, 1)

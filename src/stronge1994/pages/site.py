@@ -1,4 +1,4 @@
-"""All pages of a run in one folder, for a web server or a stick."""
+"""The pages of a run in one folder, for a web server or a USB stick."""
 
 import shutil
 from collections.abc import Iterable
@@ -7,15 +7,13 @@ from pathlib import Path
 from stronge1994.pages import templates
 
 
-def write(
-    folder: str, pages: Iterable[str], notebooks: Iterable[str], texts: Iterable[str]
-) -> None:
-    """Copy pages (files and folders of figures/), notebooks and texts.
+def write(folder: str, pages: Iterable[str], texts: Iterable[str]) -> None:
+    """Copy pages (files and folders of figures/) and texts.
 
     The start page links to the interface here: only the site has it.
     """
     site = Path(folder)
-    (site / "notebooks").mkdir(parents=True)
+    site.mkdir(parents=True)
     for path in map(Path, pages):
         copy = site / path.relative_to("figures")
         if path.is_dir():
@@ -29,8 +27,6 @@ def write(
     (site / "index.html").write_text(text, encoding="utf-8")
     for text in texts:
         shutil.copy2(text, site)
-    for notebook in notebooks:
-        shutil.copy2(notebook, site / "notebooks")
 
 
 def pack(folder: str, archive: str) -> None:

@@ -9,7 +9,7 @@ import pandas as pd
 from stronge1994 import tables
 from stronge1994.tables import Table
 
-ERROR, BUILD = "max_velocity [mu v2(0)]", "build_time [s]"
+ERROR, BUILD = "max_velocity_with_kinks [mu v2(0)]", "build_time [s]"
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 TIME = re.compile(r"time_(\d+) \[s\]")
 # Columns that tell the settings of a model.

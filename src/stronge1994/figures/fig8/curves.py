@@ -25,7 +25,7 @@ def curves(
 
     The paper states no contact stiffness. Omega is taken so that the peak force at normal incidence
     is Hertz's for this ball and mass; only angles, ratios and shapes test the model. The lowest
-    friction of a contact is negative where friction turns round.
+    friction of a contact is negative where friction reverses.
 
     >>> steel = dict(radius=0.0127, young_modulus=207e9, poisson_ratio=0.3)
     >>> table = curves(3.5, 1.21, (0, 90), 0.18, 0.048, 0.101, steel, 91)
