@@ -218,7 +218,7 @@ const page = (() => {
     element("counted").textContent = charts.number(100 / state.mass_ratio, 0);
     element("given").textContent =
       `Ball of radius ${charts.number(state.radius)}\u00A0mm, drawn larger; gravity ` +
-      (state.gravity ? `${charts.number(state.gravity)}\u00A0m/s\u00B2.` : "is left out.");
+      (impact.before.gravity ? `${charts.number(impact.before.gravity)}\u00A0m/s\u00B2.` : "is left out.");
     root.dataset.beside = state.beside;
     element("no-ball").hidden = state.mass_ratio >= 2;
     for (const name of CHOICES) element(name).value = state[name];

@@ -222,9 +222,9 @@ const stage = (() => {
     if (!with_springs()) patch_of(lane, bounce, row);
   }
 
-  // Both lanes have one contact point, with a spring or without: the scene of the lower lane's spring.
   const springy = (lane) => lane === "lower" && shown.given.groups.zeta2 > 0;
   const narrow = () => frame.width < 480; // then words stand above the ball
+  // Both lanes have one contact point, with a spring or without: the scene of the lower lane's spring.
   const with_springs = () => shown.styles.lower === "lumped";
 
   // The magnifying glass beside the ball, where there is more room.
@@ -234,8 +234,8 @@ const stage = (() => {
     const x = tip[0] + side * (frame.radius + 14 + size);
     const y = floor_of(lane) - (frame.upper - NAME) / 2 + 2;
     const up = bounce.wall === "table" ? -1 : 1;
-    return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign, up, springy: springy(lane), x, y,
-      size, tip, side, worded: !narrow() });
+    return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign,
+      up, springy: springy(lane), x, y, size, tip, side, worded: !narrow() });
   }
 
   // Pixels for 1 m/s, of arrows.

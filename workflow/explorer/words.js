@@ -52,7 +52,7 @@ const words = (() => {
   // ---- the throw under springs: what each bounce has done -----------------------------------
 
   // The contact point of one bounce, and what follows for the ball.
-  function bounced({ x, ball, after, contact: { style, state, rows } }, springy) {
+  function bounced({ x, ball, after, contact: { state, rows } }) {
     const share = x > TINY ? state.velocity / x : 0;
     const swung = rows.some(({ velocity }) => velocity < -models.STOPPED * x);
     const stuck = models.phases(rows).some(({ sticks }) => sticks);
@@ -78,9 +78,9 @@ const words = (() => {
         : "The same throw twice. Neither ball has a spring along the surface: both contacts are rigid.";
     }
     const { wall } = lower[count - 1];
-    const rigid = bounced(upper[count - 1], false);
+    const rigid = bounced(upper[count - 1]);
     const last = `After bounce ${count} (${wall}). ` + (springy
-      ? `With the spring: ${bounced(lower[count - 1], true)} Without: ${rigid}` : `Both: ${rigid}`);
+      ? `With the spring: ${bounced(lower[count - 1])} Without: ${rigid}` : `Both: ${rigid}`);
     return (over && ending(upper, lower, springy)) || last;
   }
 
@@ -97,7 +97,7 @@ const words = (() => {
     }
     // The spin of an earlier bounce turns it, once.
     const turned = lower.findIndex((one) => !forwards(one));
-    const thrown = lower.every((one) => bounced(one, true).includes("recoiled"));
+    const thrown = lower.every((one) => bounced(one).includes("recoiled"));
     const back = lower.slice(turned).every(({ after }) => after.along < -SLOW);
     if (turned === 0 || !thrown || !back) return "";
     return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
