@@ -373,16 +373,15 @@ def test_balls_have_the_numbers_of_their_presets():
     text = (node.FOLDER / "materials.yaml").read_text(encoding="utf-8")
     for ball, said in zip(yaml.safe_load(text)["balls"], write_explorer.balls(text), strict=True):
         state = dict(one.split("=") for one in said["address"].split("&"))
+        zeta2 = bodies.stiffness_ratio(bodies.Material(1.0, float(state["poisson_ratio"])))
         if given := collision.presets().get(ball.get("preset")):
             own = given.pair.friction, given.pair.restitution, 1000 * given.body.radius
             own = dict(zip(("friction", "restitution", "radius"), own, strict=True))
             ball["state"] = own | ball["state"]
-            zeta2 = bodies.stiffness_ratio(bodies.Material(1.0, float(state["poisson_ratio"])))
             assert zeta2 == pytest.approx(given.pair.stiffness_ratio, abs=1e-3)
             assert state["loss"] == ("plastic" if given.pair.plastic else "viscous")
         # No ball is thrown on a threshold, where a last digit would decide what is said.
         x = math.tan(math.radians(float(state["angle"]))) / float(state["friction"])
-        zeta2 = bodies.stiffness_ratio(bodies.Material(1.0, float(state["poisson_ratio"])))
         beta, e = float(state.get("mass_ratio", 3.5)), float(state["restitution"])
         edges = [zeta2, beta, lumped.slip_throughout_limit(beta, zeta2, e), (1 + e) * beta]
         assert np.abs(np.array(edges) / x - 1).min() > 0.01, ball["name"]

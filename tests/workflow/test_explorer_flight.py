@@ -98,15 +98,19 @@ def test_a_ball_that_does_not_bounce_stays_on_the_floor(scripts):
 
 
 # The superball under a table, as a student throws it, and what is said after each bounce.
-STORIES = """(compliance) => {
-  const given = { angle: 45, speed: 7.07, spin: 0, friction: 0.8, mass_ratio: 3.5, restitution: 0.9,
-    table: 0.7, radius: 0.025, gravity: 0 };
-  const groups = (x) => ({ x, mu: 0.8, beta: 3.5, zeta2: 1.5 * compliance, e: 0.9 });
+BOUNCES = """(given, share) => {
+  const groups = (x) => ({ x, mu: given.friction, beta: given.mass_ratio, zeta2: 1.5 * share,
+    e: given.restitution });
   const bounces = (style) => flight.fly(given, (x) => models.contact(style, groups(x)))
     .filter(({ kind }) => kind === "bounce");
-  const both = { upper: bounces("rigid"), lower: bounces("lumped") };
-  return [0, 1, 2, 3, 3].map((count, i) => words.story(both, count, i === 4, compliance > 0));
+  return { upper: bounces("rigid"), lower: bounces("lumped") };
 }"""
+STORIES = f"""(compliance) => {{
+  const given = {{ angle: 45, speed: 7.07, spin: 0, friction: 0.8, mass_ratio: 3.5,
+    restitution: 0.9, table: 0.7, radius: 0.025, gravity: 0 }};
+  const both = ({BOUNCES})(given, compliance);
+  return [0, 1, 2, 3, 3].map((count, i) => words.story(both, count, i === 4, compliance > 0));
+}}"""
 
 
 def test_the_story_of_a_throw_says_what_each_bounce_has_done(scripts):
@@ -141,17 +145,13 @@ def test_the_story_of_a_throw_says_what_each_bounce_has_done(scripts):
     assert "Timing decides" in scripts.map(STORIES, [0.5])[0][4]
 
 
-TOLD = """([given, share]) => {
-  const groups = (x) => ({ x, mu: given.friction, beta: given.mass_ratio, zeta2: 1.5 * share,
-    e: given.restitution });
-  const bounces = (style) => flight.fly(given, (x) => models.contact(style, groups(x)))
-    .filter(({ kind }) => kind === "bounce");
-  const both = { upper: bounces("rigid"), lower: bounces("lumped") };
+TOLD = f"""([given, share]) => {{
+  const both = ({BOUNCES})(given, share);
   return [0, 1].map((over) => words.story(both, both.lower.length, over === 1, share > 0)).concat(
     Object.values(both).map((all) => all.map((one) => [one.x, one.contact.state.velocity,
       one.ball.along, one.after.along, Math.min(...one.contact.rows.map((row) => row.velocity)),
       one.contact.rows.some((row) => row.sticks)])));
-}"""
+}}"""
 
 
 def test_a_story_is_true_of_every_throw(scripts):

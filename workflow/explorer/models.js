@@ -224,6 +224,6 @@ const models = (() => {
     return mixed;
   }
 
-  return { NAMES, TOGGLES, STOPPED, style_of, curve, chosen, outcomes, contact, phases, at,
+  return { NAMES, TOGGLES, SPRINGS, STOPPED, style_of, curve, chosen, outcomes, contact, phases, at,
     slip_throughout_limit };
 })();

@@ -35,6 +35,7 @@ const page = (() => {
   let styles; // the models that fly them
   let list; // the models shown in the curves
   const scales = {}; // of the charts
+  let told; // how far the show was when the line below the stage was written
   let frozen; // the end of the axis of incidence while its chart is dragged
   let playing = false;
   let now = 0; // s of the show
@@ -126,7 +127,7 @@ const page = (() => {
   function solved(throw_) {
     flights = {};
     for (const [lane, style] of Object.entries(styles)) {
-      if (!["rigid", "lumped"].includes(style) && !continuum.covers(state.restitution)) continue;
+      if (!models.SPRINGS.includes(style) && !continuum.covers(state.restitution)) continue;
       flights[lane] = flight.fly(throw_, (x) => models.contact(style, { ...throw_.groups, x }));
     }
     const parts = flights.lower ?? flights.upper;
@@ -155,6 +156,8 @@ const page = (() => {
   function show_story() {
     const bounces = ({ kind }) => kind === "bounce";
     const { bounces: count, over } = stage.progress(now);
+    if (told === `${count} ${over}`) return;
+    told = `${count} ${over}`;
     const said = styles.upper !== "rigid" ? `${words.sentence(impact)} ${words.centre(impact)}`
       : words.story({ upper: flights.upper.filter(bounces), lower: flights.lower.filter(bounces) },
         count, over, impact.zeta2 > 0);
@@ -205,7 +208,8 @@ const page = (() => {
     element("doubt").textContent =
       outcomes.some(other) ? "Other models say otherwise: see the table." : "";
     element("uncovered").hidden = continuum.covers(e) || state.beside === "rigid";
-    element("own-force").hidden = state.view !== "forces" || !list.some((style) => style in { elastic: 1, viscous: 1, plastic: 1 });
+    const springs_alone = list.every((style) => models.SPRINGS.includes(style));
+    element("own-force").hidden = state.view !== "forces" || springs_alone;
   }
 
   function show_controls() {
@@ -270,6 +274,7 @@ const page = (() => {
     const shown = state.models.filter((name) => name !== "continuum" || state.beside === "continuum");
     list = models.chosen(impact, shown);
     stage.prepare(throw_, flights, styles);
+    told = undefined;
     now = Math.min(now, stage.duration());
     if (!embedded) {
       const end = frozen ?? charts.widest(impact);

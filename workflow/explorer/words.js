@@ -51,23 +51,35 @@ const words = (() => {
 
   // ---- the throw under springs: what each bounce has done -----------------------------------
 
+  // What becomes of the contact point, and how it is said; `left` is the speed with which it leaves.
+  const FATES = {
+    still: () => "nothing slid",
+    stopped: () => "the contact point stopped",
+    slid_on: () => "the contact slipped throughout, and its point went on",
+    slid_back: () => "the contact slipped throughout, and its point turned back",
+    thrown_back: (left) => `the spring recoiled and threw the contact point back, ${left}`,
+    swung: (left) => `the spring threw the contact point back and then forwards again, ${left}`,
+    let_go: (left) => `the contact ended while the contact point still went on, ${left}`,
+  };
+
+  function fate({ x, contact: { state, rows } }) {
+    if (x <= TINY) return "still";
+    if (Math.abs(state.velocity) < models.STOPPED * x) return "stopped";
+    const back = state.velocity < 0;
+    if (!models.phases(rows).some(({ sticks }) => sticks)) return back ? "slid_back" : "slid_on";
+    if (back) return "thrown_back";
+    return rows.some(({ velocity }) => velocity < -models.STOPPED * x) ? "swung" : "let_go";
+  }
+
   // The contact point of one bounce, and what follows for the ball.
-  function bounced({ x, ball, after, contact: { state, rows } }) {
-    const share = x > TINY ? state.velocity / x : 0;
-    const swung = rows.some(({ velocity }) => velocity < -models.STOPPED * x);
-    const stuck = models.phases(rows).some(({ sticks }) => sticks);
-    const left = `at ${percent(Math.abs(share))} of the speed it came with`;
-    const point = x <= TINY ? "nothing slid"
-      : Math.abs(share) < models.STOPPED ? "the contact point stopped"
-      : !stuck ? `the contact slipped throughout, and its point ${share > 0 ? "went on" : "turned back"}`
-      : share > 0 && swung ? `the spring threw the contact point back and then forwards again, ${left}`
-      : share > 0 ? `the contact ended while the contact point still went on, ${left}`
-      : `the spring recoiled and threw the contact point back, ${left}`;
+  function bounced(bounce) {
+    const { x, ball, after, contact: { state } } = bounce;
+    const left = `at ${percent(Math.abs(state.velocity) / x)} of the speed it came with`;
     const verb = Math.abs(ball.along) < SLOW ? "sets off" : ball.along * after.along < 0 ? "turns round"
       : after.along < 0 ? "comes back" : "goes on";
     const goes = Math.abs(after.along) < SLOW ? "hardly moves along the surface"
       : `${verb}, ${Math.abs(after.along).toFixed(1)} m/s ${way(after.along)}`;
-    return `${point}; the ball ${goes}.`;
+    return `${FATES[fate(bounce)](left)}; the ball ${goes}.`;
   }
 
   // What has happened in this throw up to now, in a line: `upper` and `lower` are the bounces of the
@@ -97,7 +109,7 @@ const words = (() => {
     }
     // The spin of an earlier bounce turns it, once.
     const turned = lower.findIndex((one) => !forwards(one));
-    const thrown = lower.every((one) => bounced(one).includes("recoiled"));
+    const thrown = lower.every((one) => fate(one) === "thrown_back");
     const back = lower.slice(turned).every(({ after }) => after.along < -SLOW);
     if (turned === 0 || !thrown || !back) return "";
     return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
