@@ -4,7 +4,6 @@
   below e = 1 the evidence on the paper's is divided. `rigid`: its limit without tangential
   compliance.
 - `continuum`: spheres with micro-slip, elastic or with a loss of energy, to a tolerance.
-  `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name. `models.laws` makes one of a velocity of your own.
 - `export`: writes collisions of spheres as C or JavaScript.

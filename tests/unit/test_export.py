@@ -12,7 +12,8 @@ import pytest
 from planarimpact import Regime, collision, export, spheres
 from planarimpact.__main__ import main
 from planarimpact.bodies import Body, Material, stiffness_ratio
-from planarimpact.spheres import making, table
+from planarimpact.spheres import table
+from tests.package_tables import spheres_tables
 from tests.property import test_collide
 
 PROGRAMS = Path(__file__).parent / "export"
@@ -141,7 +142,7 @@ def sphere_edges(shipped, random):
         for number, intervals in enumerate(panel.intervals):
             shape = np.array([intervals, *sizes])[:, None]
             s, t, u = random.integers(0, 1 + shape, (3, EDGES)) / shape
-            y, b, e = making.impacts(name, panel.edges, shipped.limits, number, s, t, u)
+            y, b, e = spheres_tables.impacts(name, panel.edges, shipped.limits, number, s, t, u)
             varying = table.varying_edges(panel.edges, t, u)
             loss = np.full(EDGES, 1.0 + (name != "viscous"))
             for x in np.broadcast_arrays(y, *table.edges_of(name, varying, b, e)[1:]):

@@ -25,7 +25,7 @@ WORDS = {"event", "regime", "loss", "pair", "spread", "body", "other", "set", "c
 WORDS |= {"run", "impact", "ball", "curve", "model", "variant", "shifted"}
 # Parameters in which curves differ.
 PARAMETERS = {"e", "mu", "nu", "x", "zeta2", "velocity_ratio", "sigmas"}
-PARAMETERS |= {"steps", "circles", "knots", "tolerance"}
+PARAMETERS |= {"steps", "knots", "tolerance"}
 
 
 def test_a_good_run_passes_and_leaves_everything(first_run):

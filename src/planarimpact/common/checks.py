@@ -288,7 +288,7 @@ def number(
 
 
 def count(name: str, value: int, least: int, most: int = MOST) -> int:
-    """Check a number of steps, circles or samples: an integer from `least` to `most`.
+    """Check a number of steps or samples: an integer from `least` to `most`.
 
     Examples
     --------
