@@ -4,10 +4,12 @@ That every entry holds is what a run says; that each notices a fault, test_mutat
 refused, tests/refusals. The readings quote numbers, which are found here in other ways.
 """
 
+import functools
+import inspect
 import math
 import re
 from collections import Counter
-from itertools import product
+from itertools import count, product
 
 import numpy as np
 import pytest
@@ -16,10 +18,10 @@ from markupsafe import escape
 from planarimpact import continuum, lumped, noncollinear
 from stronge1994 import tables
 from stronge1994.formulas import mathematical
-from stronge1994.ledger import checking, contact, finding, outcome
+from stronge1994.ledger import checking, contact, finding, outcome, run
 from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
-from stronge1994.printed import dynamics, slip
+from stronge1994.printed import dissipation, dynamics, impact, peak_force, slip
 from tests.workflow.page import flat
 from tests.workflow.project import ROOT, config, ledger
 
@@ -68,6 +70,61 @@ def rows(first_run):
 def test_an_entry_holds_or_says_why_not(entry, found, why):
     assert finding.judge(found, entry).startswith(why)
     assert bool(finding.judge(found, entry)) == bool(why)
+
+
+# A part of what a formula returns: by the place of the call, the number of calls, and the size.
+HALVES = {
+    "first calls": lambda call, calls, size: slice(size if call < calls // 2 else 0),
+    "last calls": lambda call, calls, size: slice(size if call >= calls // 2 else 0),
+    "first entries": lambda call, calls, size: slice(size // 2),
+    "last entries": lambda call, calls, size: slice(size // 2, None),
+}
+
+
+def wrong(values, part, by=1e3):
+    """Numbers that are wrong in a part; of several each in a way of its own."""
+    if isinstance(values, tuple):
+        parts = [wrong(value, part, (i + 1) * by) for i, value in enumerate(values)]
+        return type(values)(*parts) if hasattr(values, "_fields") else tuple(parts)
+    numbers = np.array(values, float, ndmin=1)
+    numbers[..., part(numbers.shape[-1])] += by
+    return numbers if np.ndim(values) else numbers[0]
+
+
+def found_by(entry, monkeypatch, half, calls):
+    """What a check finds, by printed formulas that are wrong in one half; and their calls."""
+    done = count()
+
+    def formula(right):
+        @functools.wraps(right)
+        def call(*arguments, **named):
+            part = functools.partial(half, next(done), calls)
+            return wrong(right(*arguments, **named), part)
+
+        return call
+
+    with monkeypatch.context() as patch, np.errstate(all="ignore"):
+        for module in (dissipation, dynamics, impact, peak_force, slip):
+            for name, right in inspect.getmembers(module, inspect.isfunction):
+                if right.__module__ == module.__name__:
+                    patch.setattr(module, name, formula(right))
+        return str(run(entry["check"])), next(done)
+
+
+@pytest.mark.parametrize("name", [n for n, e in EXECUTED.items() if e["kind"] == "equation"])
+def test_a_check_looks_at_both_halves(name, monkeypatch):
+    """A printed formula is noticed that is wrong in one half of its calls, or of each array."""
+    sizes = []
+    right, calls = found_by(
+        EXECUTED[name], monkeypatch, lambda *place: sizes.append(place[-1]) or slice(0), 0
+    )
+    unseen = [
+        which
+        for which, half in HALVES.items()
+        if found_by(EXECUTED[name], monkeypatch, half, calls)[0] == right
+    ]
+    empty = {"first calls": calls == 1, "first entries": max(sizes) == 1}
+    assert unseen == [which for which, is_so in empty.items() if is_so]
 
 
 def test_every_numbered_equation_has_an_executed_entry():
