@@ -35,7 +35,7 @@ An example runs after `import numpy as np` and `from planarimpact.lumped import 
 stands for the module on whose page it is.
 """
 
-__version__ = "0.2.0"  # before the imports, as `export` writes it into its files
+__version__ = "0.3.0"  # before the imports, as `export` writes it into its files
 
 from planarimpact import (
     bodies,

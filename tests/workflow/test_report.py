@@ -2,6 +2,7 @@
 
 import base64
 import html
+import json
 import re
 from collections import Counter
 
@@ -20,6 +21,8 @@ from stronge1994.names import MODELS
 from stronge1994.pages import note, which_model
 from stronge1994.pages import report as write_report
 from stronge1994.verdict_table import Group, Verdict, Why
+from stronge1994.words import of_identifier
+from stronge1994.words import source as name_of_source
 from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat
 from tests.workflow.project import ROOT, config
@@ -104,6 +107,31 @@ def test_every_verdict_figure_and_source_is_there(pages, rows_of, inventory):
                 assert cells.get("tolerance", "").startswith(tolerance or "")
     told = "angle: 0.22°; centre restitution: 0.0016", "0.0127 m 3×10 −5 stated", "nobody yet: th"
     assert all(words in stated_in for words in (*told, f"numpy {np.__version__}"))
+
+
+def test_each_source_and_version_stands_with_its_own_name(first_run, pages, inventory):
+    text = pages("sources")
+    sections = re.split("<section>", text)[1:]
+    shown = [re.search(r'<h3 id="source-(\w+)">(.*?)</h3>', section) for section in sections]
+    assert sorted(heading[1] for heading in shown) == sorted(inventory)
+    for section, heading in zip(sections, shown, strict=True):
+        name, stated = heading[1], inventory[heading[1]]
+        assert heading[2] == name_of_source(name).replace("&", "&amp;")
+        assert f"<code>data/{name}</code>" in section
+        assert flat(html.escape(stated["citation"])) in flat(section)
+        doi = [f"https://doi.org/{stated['doi']}"] if stated.get("doi") else []
+        assert re.findall(r'href="(https:.*?)"', section) == doi
+        rows = re.findall(r"<tr><td>(.*?)</tr>", section.rpartition("<details>")[2], flags=re.S)
+        told = [flat(re.sub("<td.*?>", "; ", row)) for row in rows if 'label="value"' in row]
+        parameters = stated.get("parameters") or {}
+        for row, (key, entry) in zip(told, parameters.items(), strict=True):
+            origin = flat(mathematical(entry["origin"]))
+            assert row.startswith(flat(mathematical(of_identifier(key)))), row
+            assert row.endswith(origin) and flat(mathematical(f"{entry['value']:g}")) in row
+    said = text[text.index("<dt>Versions</dt>") :].split("</dd>")[0]
+    made_with = json.loads((first_run[0] / "results/versions.json").read_text(encoding="utf-8"))
+    assert flat(said) == "Versions" + ",".join(f"{k}{v}" for k, v in made_with.items())
+    assert made_with["numpy"] == np.__version__ and made_with["pandas"] == pd.__version__
 
 
 @pytest.mark.parametrize("name", CONFIG["figures"])
