@@ -1,5 +1,6 @@
 """Solves non-collinear contacts phase by phase, from contact to separation."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -7,15 +8,13 @@ import numpy as np
 from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.common.results import Regime
 from planarimpact.noncollinear import closed_contact, stick_end
-from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
+from planarimpact.noncollinear.phases import TIE, Groups, Slip, State, Stick, taken
 
 # The solver gives up a contact with more phases than this.
 MOST_PHASES = 5_000
 # Time scale of unloading where restitution is smaller: then the tangential motion is the same, to
 # rounding.
 SMALLEST_TIME_SCALE = 1e-50
-# Two impulses whose relative difference is smaller are considered equal.
-TIE = 1e-14
 
 
 class Impacts(NamedTuple):
@@ -47,6 +46,16 @@ class Outcome(NamedTuple):
     regime: Integers
     jams: Booleans
     given_up: Booleans
+
+    def add(
+        self, impact: Integers, peak_friction: Array, duration: Array, impulses: Iterable[Array]
+    ) -> None:
+        """Add a phase of some impacts, with the impulses of F and N."""
+        self.peak_friction[impact] = np.maximum(self.peak_friction[impact], peak_friction)
+        self.duration[impact] += duration
+        friction, normal = impulses
+        self.friction_impulse[impact] += friction
+        self.normal_impulse[impact] += normal
 
 
 class Phase(NamedTuple):
@@ -131,16 +140,9 @@ def _next_phase(
     for mask, advance in ((~in_stick, _slip_phase), (in_stick, _stick_phase)):
         chosen = np.flatnonzero(mask)
         if chosen.size:
-            chosen_groups = Groups(*(group[chosen] for group in groups))
-            event = advance(_take(contacts, chosen), chosen_groups, outcome, trace)
+            event = advance(taken(contacts, chosen), taken(groups, chosen), outcome, trace)
             remaining.append(_after_event(*event, impacts, outcome, trace))
     return remaining[0] if len(remaining) == 1 else _join(*remaining)
-
-
-def _take(contacts: Contacts, chosen: Integers) -> Contacts:
-    """The chosen contacts."""
-    state = State._make(field[chosen] for field in contacts.state)
-    return Contacts._make(state if field is contacts.state else field[chosen] for field in contacts)
 
 
 def _join(first: Contacts, second: Contacts) -> Contacts:
@@ -159,23 +161,20 @@ def _slip_phase(
     slip = Slip.start(contacts.state, groups, contacts.direction)
     unloading = contacts.unloading
     separation = np.where(unloading, slip.separation(), np.inf)
-    candidates = np.stack(
-        [
-            # If slip stops at the instant of another event, the other one comes first: the next
-            # phase then shows whether slip goes on.
-            slip.stop() * (1 + TIE),
-            np.where(unloading, separation, slip.approach_end()),
-            np.where(unloading, slip.reload(contacts.peak), np.inf),
-        ]
-    )
-    event = candidates.argmin(axis=0)
-    impulse = candidates.min(axis=0)
+    # If slip stops at the instant of another event, the other one comes first: the next phase then
+    # shows whether slip goes on.
+    stop = slip.stop() * (1 + TIE)
+    half_end = np.where(unloading, separation, slip.approach_end())
+    peak_again = np.where(unloading, slip.reload(contacts.peak), np.inf)
+    impulse = np.minimum(np.minimum(stop, half_end), peak_again)
+    stops = stop == impulse
+    half_ends = ~stops & (half_end == impulse)
+    at_peak = ~(stops | half_ends)
     # Where C^2 equals m2/m1 to the last digits, rounding may leave no event.
     no_event = ~np.isfinite(impulse)
     outcome.given_up[contacts.impact] = no_event
     impulse = np.where(no_event, 0.0, impulse)
     after = slip.after(impulse, separation)
-    stops, half_ends, at_peak = (event == kind for kind in range(3))
     after = after._replace(
         approach=np.where(half_ends & ~unloading, 0.0, after.approach),
         normal=np.where(half_ends & unloading, 0.0, np.where(at_peak, contacts.peak, after.normal)),
@@ -186,12 +185,10 @@ def _slip_phase(
     has_maximum = (contacts.state.approach > 0) & (after.approach < 0) & unloading
     maximum = slip.after(np.where(has_maximum, slip.approach_end(), 0.0), separation).normal
     largest = np.maximum(np.maximum(contacts.state.normal, after.normal), maximum)
-    outcome.peak_friction[impact] = np.maximum(outcome.peak_friction[impact], mu * largest)
+    duration, time_scale = slip.duration(impulse, after.normal), groups.time_scale
+    impulses = slip.impulses(time_scale * impulse)
+    outcome.add(impact, mu * largest, time_scale * duration, impulses)
     outcome.friction_work[impact] += slip.work(impulse)
-    duration = slip.duration(impulse, after.normal)
-    outcome.duration[impact] += groups.time_scale * duration
-    outcome.normal_impulse[impact] += groups.time_scale * impulse
-    outcome.friction_impulse[impact] += groups.time_scale * contacts.direction * mu * impulse
     outcome.jams[impact] |= (slip.inverse_mass < 0) & (impulse > 0)
     _record(trace, slip, contacts, duration)
     contacts_after = contacts._replace(
@@ -214,10 +211,11 @@ def _stick_phase(
     )
     time, event = stick_end.first_zero(functions)
     impact = contacts.impact
-    outcome.given_up[impact] = event < 0
+    outcome.given_up[impact] = event == stick_end.NOT_FOUND
     after = stick.at(time)
-    forward, backward, friction_turns, half_ends, last = (event == kind for kind in range(5))
-    at_peak = last & contacts.rising
+    forward, backward = event == stick_end.FORWARD_SLIP, event == stick_end.BACKWARD_SLIP
+    half_ends, force_rises = event == stick_end.END_OF_HALF, event == stick_end.FORCE_RISES
+    at_peak = force_rises & contacts.rising
     direction = np.where(forward, 1.0, np.where(backward, -1.0, 0.0))
     slides = forward | backward
     mu = groups.friction
@@ -229,19 +227,16 @@ def _stick_phase(
         normal,
         np.where(half_ends & ~unloading, 0.0, after.approach),
         np.where(slides, direction * mu * normal, after.friction),
-        np.where(friction_turns, 0.0, after.velocity),
+        np.where(event == stick_end.EXTREMUM_OF_FRICTION, 0.0, after.velocity),
     )
-    largest = np.maximum(outcome.peak_friction[impact], np.abs(after.friction))
-    outcome.peak_friction[impact] = largest
-    outcome.duration[impact] += groups.time_scale * time
-    friction_impulse, normal_impulse = stick.impulses(time)
-    outcome.friction_impulse[impact] += groups.time_scale * friction_impulse
-    outcome.normal_impulse[impact] += groups.time_scale * normal_impulse
+    time_scale = groups.time_scale
+    impulses = (time_scale * scaled for scaled in stick.impulses(time))
+    outcome.add(impact, np.abs(after.friction), time_scale * time, impulses)
     _record(trace, stick, contacts, time)
     contacts_after = contacts._replace(
         state=after,
         direction=direction,
-        rising=(contacts.rising | last) & ~at_peak,
+        rising=(contacts.rising | force_rises) & ~at_peak,
     )
     return contacts_after, half_ends, at_peak
 
@@ -285,9 +280,9 @@ def _after_event(
         separates[reloading] = False
     separating = np.flatnonzero(separates)
     if separating.size:
-        _write_outcome(_take(contacts, separating), e[separating], impacts, outcome)
+        _write_outcome(taken(contacts, separating), e[separating], impacts, outcome)
     ended = separates | outcome.given_up[impact]
-    return _take(contacts, np.flatnonzero(~ended)) if ended.any() else contacts
+    return taken(contacts, np.flatnonzero(~ended)) if ended.any() else contacts
 
 
 def _closed_course(
@@ -301,20 +296,18 @@ def _closed_course(
 
     Returns all contacts, and the indices of those whose compression goes on.
     """
-    candidates = _take(contacts, in_stick)
+    candidates = taken(contacts, in_stick)
     groups = _groups(impacts, candidates.impact, np.zeros(in_stick.size, bool))
     is_held, lowest = closed_contact.held_closed(candidates.state, groups)
     kept = np.flatnonzero(is_held)
-    held, closed = in_stick[kept], _take(candidates, kept)
-    groups = Groups(*(group[kept] for group in groups))
+    held, closed = in_stick[kept], taken(candidates, kept)
+    groups = taken(groups, kept)
     course = closed_contact.ClosedCourse.of(closed.state, groups, lowest[kept])
     impact = closed.impact
-    outcome.peak_friction[impact] = np.maximum(outcome.peak_friction[impact], course.peak_friction)
-    outcome.friction_work[impact] += course.work
-    outcome.duration[impact] += course.stick_time + course.creep_time
     impulses = course.stick.impulses(course.stick_time) + course.creep.impulses(course.creep_time)
-    outcome.friction_impulse[impact] += impulses[0]
-    outcome.normal_impulse[impact] += impulses[1]
+    duration = course.stick_time + course.creep_time
+    outcome.add(impact, course.peak_friction, duration, impulses)
+    outcome.friction_work[impact] += course.work
     outcome.jams[impact] |= course.slips_first | ~course.reloads
     if kept.size:
         _record(trace, course.stick, closed, course.stick_time)
