@@ -1,7 +1,8 @@
 """Where stick ends: the first zero of several functions, each a sum of the two modes.
 
-No finder of `common.roots` serves here: it needs a bracket with a single zero, and before the
-search nobody knows one. The search advances from the left only, in steps that cannot pass a zero. Two lower bounds of a
+The finder of `common.roots` needs a bracket with a single zero, and here nobody knows one: that no
+zero lies before is the very thing to find out, and where the steps end nothing is left to refine.
+So the search advances from the left only, in steps that cannot pass a zero. Two lower bounds of a
 function f give such steps, and the longer one is taken.
 
 - With |f''| <= M the step is the positive root h of f + f' h - M h^2/2. M is `curvature`.
@@ -27,9 +28,9 @@ from planarimpact.common.angles import sin_cos
 from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.noncollinear.phases import Groups, Mode, Slip, State, Stick, rotated, taken
 
-# What ends a phase of stick, each the row of a function in `Functions`. A half of the contact ends at
-# maximum compression or at separation. In unloading the force may begin to rise again, and if it
-# does, reach its earlier peak.
+# What ends a phase of stick; each is the row of a function in `Functions`. A half of the contact
+# ends at maximum compression or at separation. In unloading the force may begin to rise again, and
+# if it does, reach its earlier peak.
 FORWARD_SLIP, BACKWARD_SLIP, EXTREMUM_OF_FRICTION, END_OF_HALF, FORCE_RISES = range(5)
 NOT_FOUND = -1  # the search gave up
 NOISE = 1e-15
