@@ -117,10 +117,7 @@ class ClosedCourse(NamedTuple):
         stick_force = np.where(slips_first, mu * lowest, first_force)
         # Stick is a sinusoid of F and V. If F rises, `largest_force` is its crest.
         amplitude_ratio = np.sqrt((beta - coupling * coupling) * zeta2)
-        rises = velocity > 0
-        largest_force = np.where(
-            rises, np.hypot(stick_force, velocity / amplitude_ratio), stick_force
-        )
+        largest_force = np.hypot(stick_force, np.maximum(velocity, 0.0) / amplitude_ratio)
         reloads = coupling * largest_force > peak * (1 + TIE)
         # The F at which N comes down to F/mu, where creep begins: at once after a slip. If F rises
         # first, the amplitude of N at its crest is at most the difference of C F and the peak.
@@ -131,7 +128,7 @@ class ClosedCourse(NamedTuple):
         # Stick ends where N reaches its peak, or where creep begins. The angle of the sinusoid
         # between start and end gives the time.
         end_force = np.where(reloads, peak / coupling, np.minimum(creep_force, largest_force))
-        start_speed = np.where(rises, 0.0, velocity)
+        start_speed = np.minimum(velocity, 0.0)
         end_speed = np.sqrt(
             start_speed * start_speed
             + amplitude_ratio**2 * (largest_force - end_force) * (largest_force + end_force)

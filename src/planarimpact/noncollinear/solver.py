@@ -335,15 +335,6 @@ def _write_outcome(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outc
     outcome.approach[impact] = e * state.approach
     outcome.peak_normal[impact] = contacts.peak
     outcome.friction_work[impact] += impacts.stiffness_ratio[impact] * state.friction**2 / 2
-    sticks, slid_first, slides = contacts.stick_count, contacts.slid_first, contacts.direction != 0
-    outcome.regime[impact] = np.select(
-        [sticks == 0, sticks > 1, slid_first & slides, slid_first, slides],
-        [
-            Regime.SLIP_THROUGHOUT,
-            Regime.MULTIPLE,
-            Regime.SLIP_STICK_SLIP,
-            Regime.SLIP_STICK,
-            Regime.STICK_SLIP,
-        ],
-        Regime.STICK,
+    outcome.regime[impact] = Regime.of_phases(
+        contacts.stick_count, contacts.slid_first, contacts.direction != 0
     )
