@@ -59,7 +59,6 @@ def timeline(
     ends = np.cumsum([_time_scale(phase, e) * phase.duration for phase in trace])
     grid = np.linspace(0.0, ends[-1], samples)
     force_unit, length_unit = speed_unit * impedance_unit, speed_unit * time_unit
-    units = [time_unit, *[force_unit] * 2, *[speed_unit] * 2, *[length_unit] * 2]
     blocks: list[Array] = []
     events: list[tuple[EventKind, Array]] = []
     before, peak = None, 0.0
@@ -76,10 +75,17 @@ def timeline(
             peak = normal[-1]
         # On the line of unloading u = u_max - e^2 (N_max - N).
         compression = peak - e * e * (peak - normal) if phase.unloading else normal
-        approach = time_scale * state.approach
-        spring = zeta2 * state.friction
-        rows = instants, normal, state.friction, state.velocity, approach, compression, spring
-        block = np.stack([row * unit for row, unit in zip(rows, units, strict=True)])
+        block = np.stack(
+            [
+                instants * time_unit,
+                normal * force_unit,
+                state.friction * force_unit,
+                state.velocity * speed_unit,
+                time_scale * state.approach * speed_unit,
+                compression * length_unit,
+                zeta2 * state.friction * length_unit,
+            ]
+        )
         first = block[:, 0]
         if before and isinstance(phase.motion, ClosedPhase) and not before.unloading:
             first = blocks[-1][:, -1]  # the force jumps, after the events
@@ -92,9 +98,15 @@ def timeline(
     if not trace[-1].unloading:
         events.append((EventKind.MAXIMUM_COMPRESSION, last))
     events.append((EventKind.SEPARATION, last))
-    of_events = [0, 1, 2, 3, 6]
-    listed = tuple(Event(kind, *map(float, state[of_events])) for kind, state in events)
-    return NoncollinearHistory._make([*np.concatenate(blocks, axis=1), listed])
+    return NoncollinearHistory._make(
+        [*np.concatenate(blocks, axis=1), tuple(_event(kind, state) for kind, state in events)]
+    )
+
+
+def _event(kind: EventKind, state: Array) -> Event:
+    """An event, from its state in the order of `NoncollinearHistory`."""
+    time, normal_force, friction, tangential, _, _, spring = map(float, state)
+    return Event(kind, time, normal_force, friction, tangential, spring)
 
 
 def _time_scale(phase: Phase, e: float) -> float:
