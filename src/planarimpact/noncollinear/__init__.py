@@ -38,7 +38,7 @@ from planarimpact.noncollinear.configuration import (
     motion_after,
     refuse_overflow,
 )
-from planarimpact.noncollinear.solver import Impacts, Outcome, Phase, solve
+from planarimpact.noncollinear.solver import Impacts, Phase, solve
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
 
 __all__ = [
@@ -55,8 +55,6 @@ __all__ = [
     "rigid",
 ]
 
-# Impacts solved together: few enough for memory, enough that Python's overhead is small.
-CHUNK = 65536
 # Largest group: its products with others are within float64, and no real body has a larger one.
 LARGEST = 1e50
 
@@ -189,11 +187,7 @@ def rebound(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
     v2, m2, e, kappa, impacts = _groups(arguments)
-    chunks = [
-        solve(Impacts._make(field[start : start + CHUNK] for field in impacts))
-        for start in range(0, max(v2.size, 1), CHUNK)  # one chunk even without an impact
-    ]
-    outcome = Outcome(*(np.concatenate(column) for column in zip(*chunks, strict=True)))
+    outcome = solve(impacts)
     force_unit = np.sqrt(m2) * np.sqrt(kappa) * v2
     with np.errstate(over="ignore"):
         fields = [

@@ -1,15 +1,18 @@
 """Solves non-collinear contacts phase by phase, from contact to separation."""
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.common.results import Regime
-from planarimpact.noncollinear import closed_contact, stick_end
+from planarimpact.noncollinear import stick_end
+from planarimpact.noncollinear.closed_contact import ClosedCourse, ClosedPhase, held_closed
 from planarimpact.noncollinear.phases import TIE, Groups, Slip, State, Stick, taken
 
+# Impacts solved together: few enough for memory, enough that Python's overhead is small.
+CHUNK = 65536
 # The solver gives up a contact with more phases than this.
 MOST_PHASES = 5_000
 # Time scale of unloading where restitution is smaller: then the tangential motion is the same, to
@@ -28,40 +31,13 @@ class Impacts(NamedTuple):
     restitution: Array
 
 
-class Outcome(NamedTuple):
-    """Results of impacts so far, arrays of shape (n,), filled in place.
-
-    `given_up` marks impacts with too many phases or oscillations: they have no result.
-    Impulses are sums: the change of velocity has too few digits for them where C^2 is near beta.
-    """
-
-    velocity: Array
-    approach: Array
-    friction_impulse: Array
-    normal_impulse: Array
-    peak_friction: Array
-    peak_normal: Array
-    friction_work: Array
-    duration: Array
-    regime: Integers
-    jams: Booleans
-    given_up: Booleans
-
-    def add(
-        self, impact: Integers, peak_friction: Array, duration: Array, impulses: Iterable[Array]
-    ) -> None:
-        """Add a phase of some impacts, with the impulses of F and N."""
-        self.peak_friction[impact] = np.maximum(self.peak_friction[impact], peak_friction)
-        self.duration[impact] += duration
-        friction, normal = impulses
-        self.friction_impulse[impact] += friction
-        self.normal_impulse[impact] += normal
+Motion: TypeAlias = Slip | Stick | ClosedPhase
 
 
 class Phase(NamedTuple):
     """One phase of one contact: its motion, whether in unloading, and its scaled duration."""
 
-    motion: Slip | Stick | closed_contact.ClosedPhase
+    motion: Motion
     unloading: bool
     duration: float
 
@@ -84,35 +60,76 @@ class Contacts(NamedTuple):
     slid_first: Booleans
 
 
+class Outcome(NamedTuple):
+    """Results of impacts so far, arrays of shape (n,), filled in place.
+
+    `given_up` marks impacts with too many phases or oscillations: they have no result.
+    Impulses are sums: the change of velocity has too few digits for them where C^2 is near beta.
+    `trace` gets the phases of a single impact in order.
+    """
+
+    velocity: Array
+    approach: Array
+    friction_impulse: Array
+    normal_impulse: Array
+    peak_friction: Array
+    peak_normal: Array
+    friction_work: Array
+    duration: Array
+    regime: Integers
+    jams: Booleans
+    given_up: Booleans
+    trace: list[Phase] | None
+
+    def add(
+        self,
+        contacts: Contacts,
+        motion: Motion,
+        duration: Array,
+        impulses: Iterable[Array],
+        peak_friction: Array,
+        time_scale: Numbers = 1.0,
+    ) -> None:
+        """Add a phase of contacts, with the scaled duration and impulses of F and N."""
+        impact = contacts.impact
+        self.duration[impact] += time_scale * duration
+        friction, normal = impulses
+        self.friction_impulse[impact] += time_scale * friction
+        self.normal_impulse[impact] += time_scale * normal
+        self.peak_friction[impact] = np.maximum(self.peak_friction[impact], peak_friction)
+        if self.trace is not None:
+            self.trace.append(Phase(motion, bool(contacts.unloading[0]), float(duration[0])))
+
+
 def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
-    """Solve impacts; the phases of a single impact are appended to `trace` in order."""
+    """Solve impacts, chunk by chunk; the phases of a single one are appended to `trace`."""
     size = impacts.velocity.size
     outcome = Outcome._make(
-        [*np.zeros((8, size)), np.zeros(size, np.uint8), *np.zeros((2, size), bool)]
+        [*np.zeros((8, size)), np.zeros(size, np.uint8), *np.zeros((2, size), bool), trace]
     )
-    contacts = _start(impacts)
-    for _ in range(MOST_PHASES):
-        if not contacts.impact.size:
-            break
-        contacts = _next_phase(contacts, impacts, outcome, trace)
-    outcome.given_up[contacts.impact] = True
+    for start in range(0, size, CHUNK):
+        contacts = _start(impacts, np.arange(start, min(start + CHUNK, size)))
+        for _ in range(MOST_PHASES):
+            if not contacts.impact.size:
+                break
+            contacts = _next_phase(contacts, impacts, outcome)
+        outcome.given_up[contacts.impact] = True
     return outcome
 
 
-def _start(impacts: Impacts) -> Contacts:
+def _start(impacts: Impacts, chosen: Integers) -> Contacts:
     """Contacts at their first instant: they stick, unless the body is faster than the spring."""
-    velocity, mu, zeta2 = impacts.velocity, impacts.friction, impacts.stiffness_ratio
-    size = velocity.size
+    velocity, size = impacts.velocity[chosen], chosen.size
     direction = np.where(velocity < 0, -1.0, 1.0)
     start = State(np.zeros(size), np.ones(size), np.zeros(size), velocity)
-    groups = _groups(impacts, np.arange(size), np.zeros(size, bool))
-    limit = mu * zeta2
+    groups = _groups(impacts, chosen, np.zeros(size, bool))
+    limit = groups.friction * groups.stiffness_ratio
     # At the limit itself |F| = mu N to first order in time: the contact slips if slip gets faster.
     gets_faster = Slip.start(start, groups, direction).slope >= 0
     at_limit = np.abs(velocity) == limit
-    slides = (np.abs(velocity) > limit) | (at_limit & gets_faster) | (mu == 0)
+    slides = (np.abs(velocity) > limit) | (at_limit & gets_faster) | (groups.friction == 0)
     return Contacts(
-        np.arange(size),
+        chosen,
         start,
         np.zeros(size, bool),
         np.where(slides, direction, 0.0),
@@ -130,9 +147,7 @@ def _groups(impacts: Impacts, chosen: Integers, unloading: Booleans) -> Groups:
     return Groups._make([*groups, time_scale])
 
 
-def _next_phase(
-    contacts: Contacts, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
-) -> Contacts:
+def _next_phase(contacts: Contacts, impacts: Impacts, outcome: Outcome) -> Contacts:
     """Advance every contact by one phase, and return those that have not ended."""
     groups = _groups(impacts, contacts.impact, contacts.unloading)
     in_stick = contacts.direction == 0
@@ -140,8 +155,8 @@ def _next_phase(
     for mask, advance in ((~in_stick, _slip_phase), (in_stick, _stick_phase)):
         chosen = np.flatnonzero(mask)
         if chosen.size:
-            event = advance(taken(contacts, chosen), taken(groups, chosen), outcome, trace)
-            remaining.append(_after_event(*event, impacts, outcome, trace))
+            event = advance(taken(contacts, chosen), taken(groups, chosen), outcome)
+            remaining.append(_after_event(*event, impacts, outcome))
     return remaining[0] if len(remaining) == 1 else _join(*remaining)
 
 
@@ -155,7 +170,7 @@ def _join(first: Contacts, second: Contacts) -> Contacts:
 
 
 def _slip_phase(
-    contacts: Contacts, groups: Groups, outcome: Outcome, trace: list[Phase] | None
+    contacts: Contacts, groups: Groups, outcome: Outcome
 ) -> tuple[Contacts, Booleans, Booleans]:
     """Slip to its next event: contacts there, where a half ends, where N is at its peak again."""
     slip = Slip.start(contacts.state, groups, contacts.direction)
@@ -185,12 +200,10 @@ def _slip_phase(
     has_maximum = (contacts.state.approach > 0) & (after.approach < 0) & unloading
     maximum = slip.after(np.where(has_maximum, slip.approach_end(), 0.0), separation).normal
     largest = np.maximum(np.maximum(contacts.state.normal, after.normal), maximum)
-    duration, time_scale = slip.duration(impulse, after.normal), groups.time_scale
-    impulses = slip.impulses(time_scale * impulse)
-    outcome.add(impact, mu * largest, time_scale * duration, impulses)
+    duration, impulses = slip.duration(impulse, after.normal), slip.impulses(impulse)
+    outcome.add(contacts, slip, duration, impulses, mu * largest, groups.time_scale)
     outcome.friction_work[impact] += slip.work(impulse)
     outcome.jams[impact] |= (slip.inverse_mass < 0) & (impulse > 0)
-    _record(trace, slip, contacts, duration)
     contacts_after = contacts._replace(
         state=after,
         direction=np.where(stops, 0.0, contacts.direction),
@@ -201,7 +214,7 @@ def _slip_phase(
 
 
 def _stick_phase(
-    contacts: Contacts, groups: Groups, outcome: Outcome, trace: list[Phase] | None
+    contacts: Contacts, groups: Groups, outcome: Outcome
 ) -> tuple[Contacts, Booleans, Booleans]:
     """Stick to its next event; returns as `_slip_phase`."""
     stick = Stick.start(contacts.state, groups)
@@ -229,10 +242,8 @@ def _stick_phase(
         np.where(slides, direction * mu * normal, after.friction),
         np.where(event == stick_end.EXTREMUM_OF_FRICTION, 0.0, after.velocity),
     )
-    time_scale = groups.time_scale
-    impulses = (time_scale * scaled for scaled in stick.impulses(time))
-    outcome.add(impact, np.abs(after.friction), time_scale * time, impulses)
-    _record(trace, stick, contacts, time)
+    peak_friction = np.abs(after.friction)
+    outcome.add(contacts, stick, time, stick.impulses(time), peak_friction, groups.time_scale)
     contacts_after = contacts._replace(
         state=after,
         direction=direction,
@@ -241,24 +252,12 @@ def _stick_phase(
     return contacts_after, half_ends, at_peak
 
 
-def _record(
-    trace: list[Phase] | None,
-    motion: Slip | Stick | closed_contact.ClosedPhase,
-    contacts: Contacts,
-    duration: Array,
-) -> None:
-    """Append a phase to the trace of a single contact."""
-    if trace is not None:
-        trace.append(Phase(motion, bool(contacts.unloading[0]), float(duration[0])))
-
-
 def _after_event(
     contacts: Contacts,
     half_ends: Booleans,
     at_peak: Booleans,
     impacts: Impacts,
     outcome: Outcome,
-    trace: list[Phase] | None,
 ) -> Contacts:
     """Start unloading or loading, write the outcome of contacts that separate, and drop them."""
     impact, state = contacts.impact, contacts.state
@@ -276,7 +275,7 @@ def _after_event(
     )
     in_stick = np.flatnonzero(no_restitution & (contacts.direction == 0))
     if in_stick.size:
-        contacts, reloading = _closed_course(contacts, in_stick, impacts, outcome, trace)
+        contacts, reloading = _closed_course(contacts, in_stick, impacts, outcome)
         separates[reloading] = False
     separating = np.flatnonzero(separates)
     if separating.size:
@@ -290,7 +289,6 @@ def _closed_course(
     in_stick: Integers,
     impacts: Impacts,
     outcome: Outcome,
-    trace: list[Phase] | None,
 ) -> tuple[Contacts, Integers]:
     """Advance contacts in stick without restitution if friction holds them closed.
 
@@ -298,21 +296,20 @@ def _closed_course(
     """
     candidates = taken(contacts, in_stick)
     groups = _groups(impacts, candidates.impact, np.zeros(in_stick.size, bool))
-    is_held, lowest = closed_contact.held_closed(candidates.state, groups)
+    is_held, lowest = held_closed(candidates.state, groups)
     kept = np.flatnonzero(is_held)
     held, closed = in_stick[kept], taken(candidates, kept)
     groups = taken(groups, kept)
-    course = closed_contact.ClosedCourse.of(closed.state, groups, lowest[kept])
+    course = ClosedCourse.of(closed.state, groups, lowest[kept])
+    if kept.size:
+        impulses = course.stick.impulses(course.stick_time)
+        outcome.add(closed, course.stick, course.stick_time, impulses, course.peak_friction)
+    if not course.reloads.all():
+        impulses = course.creep.impulses(course.creep_time)
+        outcome.add(closed, course.creep, course.creep_time, impulses, course.peak_friction)
     impact = closed.impact
-    impulses = course.stick.impulses(course.stick_time) + course.creep.impulses(course.creep_time)
-    duration = course.stick_time + course.creep_time
-    outcome.add(impact, course.peak_friction, duration, impulses)
     outcome.friction_work[impact] += course.work
     outcome.jams[impact] |= course.slips_first | ~course.reloads
-    if kept.size:
-        _record(trace, course.stick, closed, course.stick_time)
-        if not course.reloads.all():
-            _record(trace, course.creep, closed, course.creep_time)
     state = State(*(field.copy() for field in contacts.state))
     for field, end in zip(state, course.end, strict=True):
         field[held] = end
