@@ -253,11 +253,7 @@ def _stick_phase(
 
 
 def _after_event(
-    contacts: Contacts,
-    half_ends: Booleans,
-    at_peak: Booleans,
-    impacts: Impacts,
-    outcome: Outcome,
+    contacts: Contacts, half_ends: Booleans, at_peak: Booleans, impacts: Impacts, outcome: Outcome
 ) -> Contacts:
     """Start unloading or loading, write the outcome of contacts that separate, and drop them."""
     impact, state = contacts.impact, contacts.state
@@ -275,8 +271,7 @@ def _after_event(
     )
     in_stick = np.flatnonzero(no_restitution & (contacts.direction == 0))
     if in_stick.size:
-        contacts, reloading = _closed_course(contacts, in_stick, impacts, outcome)
-        separates[reloading] = False
+        separates[_closed_course(contacts, in_stick, impacts, outcome)] = False
     separating = np.flatnonzero(separates)
     if separating.size:
         _write_outcome(taken(contacts, separating), e[separating], impacts, outcome)
@@ -285,14 +280,11 @@ def _after_event(
 
 
 def _closed_course(
-    contacts: Contacts,
-    in_stick: Integers,
-    impacts: Impacts,
-    outcome: Outcome,
-) -> tuple[Contacts, Integers]:
-    """Advance contacts in stick without restitution if friction holds them closed.
+    contacts: Contacts, in_stick: Integers, impacts: Impacts, outcome: Outcome
+) -> Integers:
+    """Advance contacts in stick without restitution, in place, if friction holds them closed.
 
-    Returns all contacts, and the indices of those whose compression goes on.
+    Returns the indices of those whose compression goes on.
     """
     candidates = taken(contacts, in_stick)
     groups = _groups(impacts, candidates.impact, np.zeros(in_stick.size, bool))
@@ -310,15 +302,12 @@ def _closed_course(
     impact = closed.impact
     outcome.friction_work[impact] += course.work
     outcome.jams[impact] |= course.slips_first | ~course.reloads
-    state = State(*(field.copy() for field in contacts.state))
-    for field, end in zip(state, course.end, strict=True):
+    for field, end in zip(contacts.state, course.end, strict=True):
         field[held] = end
     # A slip in the first oscillation is followed by a new stick, and creep has many.
-    stick_count, unloading = contacts.stick_count.copy(), contacts.unloading.copy()
-    stick_count[held] += course.slips_first + 2 * ~course.reloads
-    unloading[held] = ~course.reloads
-    contacts = contacts._replace(state=state, stick_count=stick_count, unloading=unloading)
-    return contacts, held[course.reloads]
+    contacts.stick_count[held] += course.slips_first + 2 * ~course.reloads
+    contacts.unloading[held] = ~course.reloads
+    return held[course.reloads]
 
 
 def _write_outcome(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outcome) -> None:
