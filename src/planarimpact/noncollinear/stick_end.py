@@ -1,9 +1,9 @@
 """Where stick ends: the first zero of several functions, each a sum of the two modes.
 
-The finder of `common.roots` needs a bracket with a single zero, and here nobody knows one: that no
-zero lies before is the very thing to find out, and where the steps end nothing is left to refine.
-So the search advances from the left only, in steps that cannot pass a zero. Two lower bounds of a
-function f give such steps, and the longer one is taken.
+The finder of `common.roots` needs a bracket with a single zero, and here none is known before the
+steps below have come so close to the first zero that nothing is left to refine. So the search
+advances from the left only, in steps that cannot pass a zero. Two lower bounds of a function f give
+such steps, and the longer one is taken.
 
 - With |f''| <= M the step is the positive root h of f + f' h - M h^2/2. M is `curvature`.
 - In stick every function obeys f'' + rate^2 f >= -load. So f lies above the solution of
