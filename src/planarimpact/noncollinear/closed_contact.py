@@ -67,10 +67,10 @@ class ClosedPhase(NamedTuple):
         zero = np.zeros_like(friction)
         return State(self.coupling * friction, zero, friction, self.compliance * rise)
 
-    def impulses(self, time: Array) -> Array:
-        """Impulses of F and of the mean of N up to a time: an array of shape (2, n)."""
+    def impulses(self, time: Array) -> tuple[Array, Array]:
+        """Impulses of F and of the mean of N up to a time."""
         friction = self.friction.integral(time)
-        return np.stack([friction, self.coupling * friction])
+        return friction, self.coupling * friction
 
 
 class ClosedCourse(NamedTuple):

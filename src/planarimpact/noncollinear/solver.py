@@ -1,6 +1,5 @@
 """Solves non-collinear contacts phase by phase, from contact to separation."""
 
-from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -86,7 +85,7 @@ class Outcome(NamedTuple):
         contacts: Contacts,
         motion: Motion,
         duration: Array,
-        impulses: Iterable[Array],
+        impulses: tuple[Array, Array],
         peak_friction: Array,
         time_scale: Numbers = 1.0,
     ) -> None:

@@ -49,7 +49,7 @@ class Functions(NamedTuple):
     """The functions of n contacts, as the constant plus the modes p and q.
 
     Arrays of shape (5, n); the rates of the modes have shape (n,). `noise` is the rounding error of
-    a function.
+    a function, `square` and `load` are rate^2 and load of its second lower bound.
     """
 
     constant: Array
@@ -77,15 +77,15 @@ def functions_of(
     # Each function is a constant, and N, F, y and V with factors.
     table = np.zeros((7, 5, mu.size))
     constant, normal, friction, approach, velocity, square, load = table
-    # mu N - F
+    # mu N - F: slip begins
     normal[FORWARD_SLIP], friction[FORWARD_SLIP] = mu, -1.0
     square[FORWARD_SLIP] = tangential + mu * coupling
     load[FORWARD_SLIP] = np.maximum(forward, 0.0) / zeta2 * bound.normal
-    # mu N + F
+    # mu N + F: slip begins
     normal[BACKWARD_SLIP], friction[BACKWARD_SLIP] = mu, 1.0
     square[BACKWARD_SLIP] = tangential - mu * coupling
     load[BACKWARD_SLIP] = np.maximum(backward, 0.0) / zeta2 * bound.normal
-    # |V|
+    # |V|: an extremum of F
     velocity[EXTREMUM_OF_FRICTION] = np.where(moves < 0, -1.0, 1.0)
     square[EXTREMUM_OF_FRICTION] = tangential
     load[EXTREMUM_OF_FRICTION] = pull * time_scale * bound.approach
@@ -93,7 +93,8 @@ def functions_of(
     normal[END_OF_HALF], approach[END_OF_HALF] = unloading, ~unloading
     square[END_OF_HALF] = 1.0
     load[END_OF_HALF] = np.where(unloading, normal_load, approach_load)
-    # In unloading -y or, where the force is `rising`, peak - N; 1 in compression.
+    # In unloading -y (the force begins to rise) or, where it is `rising`, peak - N (it reaches its
+    # earlier peak); in compression 1.
     constant[FORCE_RISES] = np.where(rising, peak, ~unloading)
     normal[FORCE_RISES], approach[FORCE_RISES] = -1.0 * rising, -1.0 * (unloading & ~rising)
     square[FORCE_RISES] = 1.0
