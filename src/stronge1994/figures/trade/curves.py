@@ -186,7 +186,7 @@ def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: str
     >>> float(reference(np.array([8.0]), groups, 1e-3, "plastic").velocity[0])
     2.75
     """
-    name = models.reference(groups["restitution"], loss or continuum.LOSSES[0])
+    name = models.reference(groups["restitution"], loss or continuum.VISCOUS)
     return models.rebound(name, x, **groups, tolerance=tolerance)
 
 
@@ -201,7 +201,7 @@ def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
     >>> input_spread(np.array([8.0]), groups, "").round(2)
     array([0.7])
     """
-    loss = loss or continuum.LOSSES[0]
+    loss = loss or continuum.VISCOUS
     lowest = groups | {"restitution": groups["restitution"] - 2 * models.RESTITUTION_ERROR}
     if models.admits(models.get(f"spheres.{loss}"), **lowest):
         return models.input_spread(f"spheres.{loss}", x, **groups)
