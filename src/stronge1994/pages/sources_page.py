@@ -54,6 +54,7 @@ def page(
         for figure, entry in config["figures"].items()
     }
     environment = templates.environment(template.parent)
+    environment.filters["in_yaml"] = in_yaml
     return environment.get_template(template.name).render(
         sources=by_kind(sources),
         choices={"kind": ("Kind", KINDS)},
