@@ -22,7 +22,7 @@ from stronge1994.pages import report as write_report
 from stronge1994.verdict_table import Group, Verdict, Why
 from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat
-from tests.workflow.project import ROOT, config
+from tests.workflow.project import config
 
 CONFIG = config()
 
@@ -168,7 +168,7 @@ def test_numbers_of_the_note_are_those_that_the_words_behind_them_mean(numbers):
         name: 4.0 for name in numbers if name.endswith(("failed", "spreads", "published.agrees"))
     }
     names, marks = list(numbers), {name: 3000.0 + i for i, name in enumerate(numbers)}
-    page = note.page(marks | spelt, [], shown, ROOT / "workflow/report/note.html")
+    page = note.page(marks | spelt, [], shown)
     marked = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda m: f"«{names[int(m[1])]}»", Page(page).text)
     row_of_table = "pairs.*.chi2» «pairs.*.least» to «pairs.*.most» 4 «pairs.*.without polyurethane"
     row_of_table += ".chi2» «rubber.*.distance» «rubber.*.distance.small» «yielding.*.rms»"
@@ -340,7 +340,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "table": figure_table.of_run(VERDICTS, {"fig6": "rebound"}),
         "faults": ["FAILS: fig6-far: max 9"],
     }
-    page = write_report.page(values, ROOT / "workflow/report/report.html")
+    page = write_report.page(values)
     text = Page(page).text
     assert "1 of 2 verdicts on the paper no longer hold: Eq. 25 . Today, commit abc" in text
     assert "FAILED Reasons: 1, named" in text and "Fig. 6, far FAILS: max 9" in text

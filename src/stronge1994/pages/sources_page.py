@@ -3,7 +3,6 @@
 import json
 from collections import Counter
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import yaml
@@ -40,12 +39,7 @@ def by_kind(sources: Mapping[str, Any]) -> dict[str, Any]:
     return {name: sources[name] for name in sorted(sources, key=rank)}
 
 
-def page(
-    sources: Mapping[str, Any],
-    config: Mapping[str, Any],
-    run: Mapping[str, Any],
-    template: Path,
-) -> str:
+def page(sources: Mapping[str, Any], config: Mapping[str, Any], run: Mapping[str, Any]) -> str:
     """The page of sources and settings, from data/*/source.yaml and the config of the run."""
     comparisons = config["comparisons"].items()
     settings = {
@@ -53,9 +47,9 @@ def page(
         | {"comparisons": {name: c for name, c in comparisons if c["figure"] == figure}}
         for figure, entry in config["figures"].items()
     }
-    environment = templates.environment(template.parent)
+    environment = templates.environment()
     environment.filters["in_yaml"] = in_yaml
-    return environment.get_template(template.name).render(
+    return environment.get_template("sources.html").render(
         sources=by_kind(sources),
         choices={"kind": ("Kind", KINDS)},
         counts=Counter(kind for source in sources.values() for kind in kinds(source)),
