@@ -8,11 +8,10 @@ from typing import Any
 import yaml
 
 from stronge1994.pages import templates
+from stronge1994.settings.config import SHARED
 
 # Kinds of reference data, in the order in which their sources stand; facts are stated.
 KINDS = ("measured", "digitised", "stated", "computed", "awaited")
-# Settings that all figures share.
-SHARED = ("mass_ratio", "stiffness_ratio", "significance")
 
 
 def kinds(source: Mapping[str, Any]) -> list[str]:
@@ -53,7 +52,7 @@ def page(sources: Mapping[str, Any], config: Mapping[str, Any], run: Mapping[str
         sources=by_kind(sources),
         choices={"kind": ("Kind", KINDS)},
         counts=Counter(kind for source in sources.values() for kind in kinds(source)),
-        shared={key: config[key] for key in SHARED},
+        shared={key: config[key] for key in (*SHARED, "significance")},
         settings={figure: in_yaml(part) for figure, part in settings.items()},
         run=run,
     )
