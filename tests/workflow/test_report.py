@@ -102,6 +102,9 @@ def test_every_verdict_figure_and_source_is_there(pages, rows_of, inventory):
                     assert flat(mathematical(entry.get(key, ""))) in cells.get(label, "")
                 tolerance = entry.get("tolerance") and flat(number(entry["tolerance"]))
                 assert cells.get("tolerance", "").startswith(tolerance or "")
+                alone = re.findall("only for <code>(.*?)</code>", row, flags=re.S)
+                settings = [entry["settings"]] if entry.get("settings") else []
+                assert [yaml.safe_load(html.unescape(one)) for one in alone] == settings
     told = "angle: 0.22°; centre restitution: 0.0016", "0.0127 m 3×10 −5 stated", "nobody yet: th"
     assert all(words in stated_in for words in (*told, f"numpy {np.__version__}"))
 
