@@ -39,7 +39,6 @@ SOLVER = {
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {
     "__init__": "",
-    "one_thread": "",
     "names": "",
     "words": "names",
     "tables": "common pandas",

@@ -23,7 +23,7 @@ from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
 from stronge1994.printed import dissipation, dynamics, impact, peak_force, slip
 from tests.workflow.page import flat
-from tests.workflow.project import ROOT, config, ledger
+from tests.workflow.project import config, ledger
 
 ENTRIES = ledger()
 EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
@@ -218,8 +218,7 @@ def test_a_wrong_claim_in_nature_does_not_hold(name, measured):
 def page_of(rows, folder):
     """The ledger's page of some rows, as a file."""
     page = folder / "ledger.html"
-    template = ROOT / "workflow/report/ledger.html"
-    page.write_text(ledger_page.page(rows, "mu: friction", {}, template), encoding="utf-8")
+    page.write_text(ledger_page.page(rows, "mu: friction", {}), encoding="utf-8")
     return page
 
 

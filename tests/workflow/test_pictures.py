@@ -102,7 +102,7 @@ def test_a_published_series_is_drawn_with_the_axes_of_a_panel(given, figure):
     curves, draw, points = given(figure)
     x, y = np.array([2.0, 6.0]), np.array([0.5, 1.0])
     for axes, count in ((AXES[figure], 1), (("tilt [deg]", AXES[figure][1]), 0)):
-        series = house_style.Scatter("mine/spheres", True, x, y, (x / 9, y / 9), axes, None, {})
+        series = house_style.Scatter(True, x, y, (x / 9, y / 9), axes, None, {})
         points["mine/spheres"] = series
         picture = draw(curves)
         (texts,) = (legend.get_texts() for legend in picture.legends)

@@ -25,7 +25,7 @@ from stronge1994.words import of_identifier
 from stronge1994.words import source as name_of_source
 from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat
-from tests.workflow.project import ROOT, config
+from tests.workflow.project import config
 
 CONFIG = config()
 
@@ -105,6 +105,9 @@ def test_every_verdict_figure_and_source_is_there(pages, rows_of, inventory):
                     assert flat(mathematical(entry.get(key, ""))) in cells.get(label, "")
                 tolerance = entry.get("tolerance") and flat(number(entry["tolerance"]))
                 assert cells.get("tolerance", "").startswith(tolerance or "")
+                alone = re.findall("only for <code>(.*?)</code>", row, flags=re.S)
+                settings = [entry["settings"]] if entry.get("settings") else []
+                assert [yaml.safe_load(html.unescape(one)) for one in alone] == settings
     told = "angle: 0.22°; centre restitution: 0.0016", "0.0127 m 3×10 −5 stated", "nobody yet: th"
     assert all(words in stated_in for words in (*told, f"numpy {np.__version__}"))
 
@@ -196,7 +199,7 @@ def test_numbers_of_the_note_are_those_that_the_words_behind_them_mean(numbers):
         name: 4.0 for name in numbers if name.endswith(("failed", "spreads", "published.agrees"))
     }
     names, marks = list(numbers), {name: 3000.0 + i for i, name in enumerate(numbers)}
-    page = note.page(marks | spelt, [], shown, ROOT / "workflow/report/note.html")
+    page = note.page(marks | spelt, [], shown)
     marked = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda m: f"«{names[int(m[1])]}»", Page(page).text)
     row_of_table = "pairs.*.chi2» «pairs.*.least» to «pairs.*.most» 4 «pairs.*.without polyurethane"
     row_of_table += ".chi2» «rubber.*.distance» «rubber.*.distance.small» «yielding.*.rms»"
@@ -368,7 +371,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "table": figure_table.of_run(VERDICTS, {"fig6": "rebound"}),
         "faults": ["FAILS: fig6-far: max 9"],
     }
-    page = write_report.page(values, ROOT / "workflow/report/report.html")
+    page = write_report.page(values)
     text = Page(page).text
     assert "1 of 2 verdicts on the paper no longer hold: Eq. 25 . Today, commit abc" in text
     assert "FAILED Reasons: 1, named" in text and "Fig. 6, far FAILS: max 9" in text

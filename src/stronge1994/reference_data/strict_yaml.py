@@ -4,6 +4,7 @@ PyYAML, of YAML 1.1, silently keeps the last of two equal keys, reads 010 as 8, 
 121, no as false, and takes 4e-1 for a text.
 """
 
+import math
 import re
 from typing import Any
 
@@ -14,8 +15,6 @@ NUMBERS = {
     "int": re.compile(r"[-+]?(0|[1-9][0-9]{0,17})"),
     "float": re.compile(r"[-+]?((0|[1-9][0-9]*)\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?$", flags=re.I),
 }
-# What the schemas refuse.
-NOT_FINITE = (".inf", "-.inf", ".nan")
 # All other kinds of values: a date would be no text.
 KINDS = ("str", "bool", "null", "seq", "map", "merge")
 _Fast: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # some installations lack it
@@ -61,9 +60,10 @@ def _check(node: yaml.Node) -> None:
         raise ValueError(f"line {at.start_mark.line + 1}: {what}")
 
     kind = node.tag.rpartition(":")[2]
-    finite = node.value not in NOT_FINITE
-    if kind in NUMBERS and finite and not NUMBERS[kind].fullmatch(node.value):
+    if kind in NUMBERS and not NUMBERS[kind].fullmatch(node.value):
         refuse(f"{node.value[:60]!a} is no decimal number such as -0.05", node)
+    if kind in NUMBERS and not math.isfinite(float(node.value)):
+        refuse(f"{node.value[:60]!a} is too large", node)
     if kind not in (*NUMBERS, *KINDS):
         refuse(f"{str(node.value)[:60]!a} is a {kind}; a text has quotes around it", node)
     if kind == "bool" and node.value.lower() not in ("true", "false"):
