@@ -5,6 +5,7 @@ import functools
 import importlib.util
 import math
 import re
+from itertools import starmap
 from pathlib import Path
 
 import numpy as np
@@ -247,10 +248,14 @@ def test_an_overlap_costs_what_the_lines_say(law, pair, wall):
 
 def test_the_guide_has_the_costs():
     text = (ROOT / "src/README.md").read_text(encoding="utf-8")
-    said = re.findall(r"([\d.]+)(?: \+ (\d+) mu²\))? d/R\s(?:up|in)", text)
-    lammps, mercury, yade = overlaps.COSTS.values()
-    costs = [number[1:] for number in (*lammps[:2], mercury[2], yade[2])]
-    assert [(float(a), float(b or 0)) for a, b in said] == costs
+    for row in zip(*overlaps.COSTS.values(), strict=True):
+        assert f" | {' | '.join(starmap(in_words, row))} |\n" in text
+
+
+def in_words(jump, a, b):
+    """A cost as the guide writes it."""
+    grows = f"({a:g} + {b:g} mu²) d/R" if b else f"{a:g} d/R" if a else ""
+    return " + ".join(filter(None, [f"{jump:g}" if jump else "", grows])) or "0"
 
 
 def test_a_speed_is_refused_from_a_tenth_of_the_radius():
