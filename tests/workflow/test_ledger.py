@@ -17,7 +17,7 @@ from markupsafe import escape
 
 from planarimpact import continuum, lumped, noncollinear
 from stronge1994 import tables
-from stronge1994.formulas import mathematical
+from stronge1994.formulas import mathematical, plain
 from stronge1994.ledger import checking, contact, finding, outcome, run
 from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
@@ -448,6 +448,35 @@ def test_numbers_that_an_entry_quotes_are_found_in_another_way(name):
     found = compute()
     found = found if np.isscalar(found) else np.array(list(found))
     assert np.all(np.abs(found - quoted) <= within), found
+
+
+def corrected_by(name, **values):
+    """Value of the first formula of a correction, whose letters have these values."""
+    formula = ENTRIES[name]["correction"].split("$")[1].rpartition(" = ")[2]
+    text = plain(f"${formula}$").replace("^2", "**2")
+    return eval(re.sub(r"(?<=[\w)]) (?=[\w(])", " * ", text), {"max": max} | values)
+
+
+def test_closed_formulas_that_the_ledger_prints_as_corrections_are_right():
+    """At restitutions, too, of which the words beside them say nothing."""
+    beta, zeta2 = contact.SPHERE
+    angles = np.linspace(50.0, 80.0, 3001)
+    for e in (0.3, 0.5, 0.8, 1.0):
+        letters = {"e": e, "mu": 0.3, "m2": beta, "m1": 1.0, "zeta": np.sqrt(zeta2)}
+        limit = max(corrected_by("slip-throughout-limit", **letters), zeta2)
+        assert limit == pytest.approx(lumped.slip_throughout_limit(beta, zeta2, e), rel=1e-12)
+        largest = angles[np.argmax(friction_loss(angles, 0.3, e)[0])]
+        angle = np.degrees(np.arctan(corrected_by("largest-dissipation-angle", **letters))) / 2 + 90
+        assert abs(angle - largest) < 0.01
+
+
+def test_entries_stand_on_pages_of_the_paper_and_equations_in_their_order():
+    pages = {
+        n: [int(page) for page in re.findall(r"\d{3}", e["where"])] for n, e in ENTRIES.items()
+    }
+    assert all(found and 435 <= min(found) <= max(found) <= 450 for found in pages.values())
+    numbered = [pages[name][0] for name in sorted(ENTRIES) if re.fullmatch(r"eq-\d\d", name)]
+    assert numbered == sorted(numbered) and len(numbered) > 35
 
 
 def test_a_figure_calls_the_paper_wrong_or_vague_as_the_ledger_does():

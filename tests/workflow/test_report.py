@@ -79,6 +79,21 @@ def test_the_first_words_say_how_it_went_and_what_was_found(pages, rows_of):
     assert grave and all(f'<a href="ledger.html#{entry}">' in head for entry in grave)
 
 
+def test_sigmas_in_the_reasons_of_comparisons_are_those_of_the_run(first_run):
+    """How many sigmas a point is off, as the figure of Kharaz' points says it."""
+    residuals = pd.read_csv(first_run[0] / "results/residuals/fig5.csv")
+    said = [
+        (name, *map(float, found))
+        for name, entry in CONFIG["comparisons"].items()
+        for found in re.findall(r"at ([\d.]+)° (?:is )?([\d.]+) sigmas", entry["reason"])
+    ]
+    assert len(said) >= 6
+    for name, angle, sigmas in said:
+        own = residuals[residuals["comparison"] == name]
+        nearest = own.iloc[np.abs(own["at"] - angle).argmin()]
+        assert abs(nearest["distance [sigma]"]) == pytest.approx(sigmas, abs=0.5), (name, nearest)
+
+
 SAID = {"origin of sigma": "sigma_origin", "where": "where", "tolerance": "tolerance_origin"}
 
 
