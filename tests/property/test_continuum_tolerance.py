@@ -36,13 +36,13 @@ def plain(x, beta, zeta2, steps):
     step = np.pi / steps
     springs = ElasticSprings(np.zeros(x.size), steps)
     u, w, peak = np.zeros(x.size), x.copy(), np.zeros(x.size)
-    for n in range(steps):
-        for phase in ((n + 0.25) * step, (n + 0.75) * step):
-            u = u + step / 2 * hertz.state(phase)[1] * w / zeta2
-            if phase < (n + 0.5) * step:
-                middle = (n + 0.5) * step
-                force = springs.move(np.full(x.size, np.sin(middle)), u)
-                w = w - step * 1.25 * beta * hertz.state(middle)[1] * force
+    middles = (np.arange(steps) + 0.5) * step
+    rates = (hertz.state(middles + shift * step)[1] for shift in (-0.25, 0, 0.25))
+    for middle, before, rate, after in zip(middles, *rates, strict=True):
+        u = u + step / 2 * before * w / zeta2
+        force = springs.move(np.full(x.size, np.sin(middle)), u)
+        w = w - step * 1.25 * beta * rate * force
+        u = u + step / 2 * after * w / zeta2
         peak = np.maximum(peak, np.abs(force))
     return w, peak
 

@@ -218,6 +218,11 @@ def speed_to(size, material):
     return math.sqrt(16 / 15 * stiffness * (0.002 * size) ** 2.5 / (MASS / 2))
 
 
+def finite_size(*contact, **given):
+    """What a velocity owes to the overlap, beside bodies in which it vanishes."""
+    return np.abs(in_si(*contact, **given, size=1)[0] - in_si(*contact, **given)[0])
+
+
 @pytest.mark.parametrize("law", fit.CODES)
 @pytest.mark.parametrize("pair", ["steel", "glass", "polyurethane", "lossy", "elastic"])
 @pytest.mark.parametrize("wall", [False, True], ids=["spheres", "wall"])
@@ -229,10 +234,7 @@ def test_an_overlap_costs_what_the_lines_say(law, pair, wall):
         given = {"friction": friction[:, None], "speed": speed_to(size, material)}
         lines = [fit.lines(one, material, **SPHERE | given | {"friction": mu}) for mu in friction]
         contact = law, lines[0], one.incidence, share * MASS, share * 0.002, wall
-        off, spinning = (
-            np.abs(in_si(*contact, **own, size=1)[0] - in_si(*contact, **own)[0])
-            for own in (given, given | {"spin": -3})  # against the motion
-        )
+        off = finite_size(*contact, **given)
         costs = [off[:, one.incidence <= end].max(axis=1) for end in overlaps.INCIDENCES]
         for mu, text, *cost in zip(friction, lines, *costs, strict=True):
             assert f"over their radius: at most {size:g}\n" in text
@@ -243,7 +245,8 @@ def test_an_overlap_costs_what_the_lines_say(law, pair, wall):
             assert np.all(cost <= np.array(most) + 1e-9), (size, mu)
             measured = stored_overlaps().get((pair, law, f"{mu:g}", size))
             assert wall or measured is None or cost == pytest.approx(measured, abs=2e-4)
-        assert wall or size != 0.01 or spinning.max() > 2 * off.max()
+        if size == 0.01 and not wall:  # against the motion
+            assert finite_size(*contact, **given, spin=-3).max() > 2 * off.max()
 
 
 def test_the_guide_has_the_costs():

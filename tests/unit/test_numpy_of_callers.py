@@ -81,7 +81,7 @@ def test_an_empty_mask_is_none():
 
 STEEL, BALL = bodies.Material(207e9, 0.3), Body(0.1, 4e-3, 0.01)
 PAIR = Pair(STEEL, friction=0.3, restitution=[0.8, 0.9], loss="plastic")
-MANY = PAIR[np.zeros(999, int)]
+MANY = PAIR[np.zeros(99, int)]
 
 
 def half(x, mass_ratio, stiffness_ratio, restitution):

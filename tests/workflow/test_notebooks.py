@@ -90,6 +90,17 @@ def test_a_wrong_solver_makes_a_stated_number_wrong(name, monkeypatch):
         executed(texts)
 
 
+SAYS = "{cell: said, says: 'is 3, not', "
+
+
+def test_no_notebook_and_no_page_has_the_checks(tmp_path):
+    made = run(
+        written(tmp_path / "good.ipynb", "three = 3", table=f"{SAYS}gives: three}}"), tmp_path
+    )
+    assert "three = 3" in re.sub("<.*?>", "", made["page"])
+    assert not [kind for kind, text in made.items() if "compare" in text or "stated_num" in text]
+
+
 @pytest.mark.parametrize(
     ("row", "words"),
     [
@@ -100,13 +111,8 @@ def test_a_wrong_solver_makes_a_stated_number_wrong(name, monkeypatch):
     ],
 )
 def test_a_text_that_states_what_its_cells_do_not_give_fails_the_run(row, words, tmp_path):
-    """In one line: the lecture, the cell, both numbers. No notebook and no page has the checks."""
-    says = "{cell: said, says: 'is 3, not', "
-    good = written(tmp_path / "good.ipynb", "three = 3", table=f"{says}gives: three}}")
-    made = run(good, tmp_path)
-    assert "three = 3" in re.sub("<.*?>", "", made["page"])
-    assert not [kind for kind, text in made.items() if "compare" in text or "stated_num" in text]
-    bad = written(tmp_path / "bad.ipynb", "three = 3", table=says + row)
+    """In one line: the lecture, the cell, both numbers."""
+    bad = written(tmp_path / "bad.ipynb", "three = 3", table=SAYS + row)
     with pytest.raises(lectures.NotebookError, match=rf"^bad\.ipynb, {words}") as refusal:
         run(bad, tmp_path)
     assert "\n" not in str(refusal.value)
