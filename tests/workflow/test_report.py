@@ -139,8 +139,8 @@ def test_each_source_and_version_stands_with_its_own_name(first_run, pages, inve
         assert flat(html.escape(stated["citation"])) in flat(section)
         doi = [f"https://doi.org/{stated['doi']}"] if stated.get("doi") else []
         assert re.findall(r'href="(https:.*?)"', section) == doi
-        rows = re.findall(r"<tr><td>(.*?)</tr>", section.rpartition("<details>")[2], flags=re.S)
-        told = [flat(re.sub("<td.*?>", "; ", row)) for row in rows if 'label="value"' in row]
+        table = section.partition("<summary>Parameters of ")[2].partition("</details>")[0]
+        told = [flat(row) for row in re.findall(r"<tr><td>(.*?)</tr>", table, flags=re.S)]
         parameters = stated.get("parameters") or {}
         for row, (key, entry) in zip(told, parameters.items(), strict=True):
             origin = flat(mathematical(entry["origin"]))

@@ -140,11 +140,11 @@ def test_touching_everything_runs_nothing_and_what_is_missing_is_made_again(fini
     result = finished.run("--dry-run")
     assert result.returncode == 0 and re.search(r"all +1 *\n *\n total +1", result.stdout)
     kinds = "curves/fig2.csv", "verdicts/fig3.csv", "residuals/fig4.csv", "ledger.csv"
-    slide = next((finished / "figures/slides").glob("fig6_*"))
+    slide = next((finished / "figures/slides").glob("fig7_*"))
     pictures = [finished / f"figures/{name}" for name in ("fig5.svg", "explorer.html")]
     for path in (*(finished / f"results/{kind}" for kind in kinds), slide, *pictures):
         path.unlink()
-    again = {"judge_fig3", "judge_fig4", "ledger", "draw_fig5", "draw_fig6", "explorer"}
+    again = {"judge_fig3", "judge_fig4", "ledger", "draw_fig5", "draw_fig7", "explorer"}
     assert finished.jobs()[1] - {"key_numbers", "note", "ledger_page"} == OF_FIG2 | PAGES | again
 
 
