@@ -433,6 +433,26 @@ def test_the_numbers_shown_are_those_of_the_package(show):
     ends = [e**2 * starts[0], starts[1] * (own.velocity / x) ** 2, 0, 0, (1 - e**2) * starts[0]]
     for column, shares in zip(cells.T, (starts, starts, [*ends, share]), strict=True):
         assert np.abs(numbers(column) - shares).max() <= 0.06
+    # In restitution, by the words of each row.
+    type_in(tab, "time", str(tab.evaluate(f"{segment}.start + 0.8 * {segment}.length")))
+    time, trace = value(tab, "time"), lumped.history(x, beta, zeta2, e)
+    time = tab.evaluate(f"stage.first_bounce({time}).time")
+    normal, friction, velocity = (
+        np.interp(time, trace.time, one) for one in (trace.normal, trace.friction, trace.velocity)
+    )
+    shares = {
+        "motion normal to the surface": e**2 * (1 - normal**2),
+        "motion along the surface": (mu * velocity) ** 2 / beta,
+        "held by compression": (e * normal) ** 2,
+        "held in shear": zeta2 * (mu * friction) ** 2,
+        "lost in the material": 1 - e**2,
+    }
+    shares["lost to friction"] = before - sum(shares.values())
+    said = map(str.strip, texts(tab, "#energies tbody th"))
+    said = dict(zip(said, numbers(texts(tab, "#energies tbody td:nth-child(3)")), strict=True))
+    assert said == pytest.approx(
+        {word: 100 * one / before for word, one in shares.items()}, abs=0.06
+    )
 
 
 def test_numbers_and_pictures_are_saved(show):
