@@ -175,6 +175,11 @@ def test_a_line_is_followed_and_judged(wrong, wanted, opened, first_run, tmp_pat
     path = saved(reader, LOSSY, tmp_path)
     read = pd.read_csv(path, comment="#").to_numpy()
     assert np.abs(distances.curve_residuals(read.T, tuple(line.T), (8.0, 6.0))[0]).max() < 0.003
+    # Sigma is half the width of the line, and what marks and a second reading add to its square.
+    half = prints.INK["linewidth"] / 2 / 72 * 300  # pixels
+    unit = [np.linalg.norm(reader.pixel(*end) - reader.pixel(0, 0)) for end in ((1, 0), (0, 1))]
+    sigma = np.array(re.findall(r"# sigma_[xy]: (.*)", path.read_text()), float) * unit
+    assert np.all((sigma > 0.8 * half) & (sigma < 1.6 * half))
     assert verdict(path, first_run) == wanted
 
 
