@@ -247,6 +247,18 @@ def test_curves_are_hidden_marks_moved_and_the_picture_saved_on_a_phone_too(open
     assert "PDF" in reader.text("#refused")
 
 
+def test_a_new_picture_begins_empty_in_every_panel(opened, tmp_path):
+    reader = opened("fig5", [], marks=MARKS[:3])
+    reader.page.select_option("#panel", "fig6")
+    reader.click(MARKS[:1])
+    assert "Set 2 more" in reader.text("#fit")
+    prints.scan(tmp_path / "other.jpg", LIMITS["fig6"], [])
+    reader.page.set_input_files("#file", tmp_path / "other.jpg")
+    reader.page.locator("#fit", has_text="Set 3 more").wait_for()
+    reader.page.select_option("#panel", "fig5")
+    assert "Set 3 more" in reader.text("#fit")
+
+
 def test_a_page_whose_distances_are_wrong_says_so(tab, first_run, tmp_path):
     text = (first_run[0] / "figures/your_copy.html").read_text(encoding="utf-8")
     for changed, wrong in ((text, 0), (re.sub(r'"near": \d', '"near": 7', text, count=1), 1)):
