@@ -266,3 +266,22 @@ def test_a_page_whose_distances_are_wrong_says_so(tab, first_run, tmp_path):
         tab.open((tmp_path / "page.html").as_uri())
         said = tab.page.text_content("#refused")
         assert ("Do not trust" in said and f" {wrong} of " in said) if wrong else said == ""
+
+
+def test_a_curve_is_the_one_that_its_name_says_and_with_which_its_series_is_compared():
+    """Of all panels: the parameters in the words, and the curve and column of the comparison."""
+    stated = config()["comparisons"].values()
+    compared = {one.get("reference"): one.get("curve") for one in stated}
+    panels = reference_data.load_yaml(ROOT / "workflow/your_copy/panels.yaml")["panels"].values()
+    for panel, curve in [(one, curve) for one in panels for curve in one["curves"]]:
+        ((key, values),) = curve.get("each", {"": [""]}).items()
+        for value in values:
+            chosen = curve["select"] | ({key: value} if key else {})
+            name = curve["name"].replace("{}", f"{value}")
+            said = re.findall(r"(e|µ) = ([\d.]+)", name)
+            assert {(at.replace("µ", "mu"), float(one)) for at, one in said} <= chosen.items(), name
+            if full := curve.get("series", "").replace("{}", f"{value}"):
+                source, series = full.split("/")
+                awaited = reference_data.Series(**sources()[source]["series"][series])
+                assert chosen.items() <= compared[full].items(), name
+                assert curve.get("y", panel["y"]) == awaited.ordinates[0].name, name
