@@ -119,6 +119,15 @@ def test_a_text_that_states_what_its_cells_do_not_give_fails_the_run(row, words,
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_a_throw_to_play_is_that_of_its_text(name):
+    """Its table quotes each address whole, so a run compares all numbers there."""
+    for cell, rows in lecture(name)[1]:
+        quoted = " ".join(row["says"] for row in rows if "gives" in row)
+        for address in re.findall(r"explorer\.html\S*?(#[^)]*)", cell.source):
+            assert address in quoted, cell.id
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
     project, _ = first_run
     pages = {kind: (project / f"figures/{kind}{name}.html").read_text() for kind in PAGES}

@@ -208,6 +208,17 @@ def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, fir
     assert np.vstack([line.get_xydata() for line in lines]) == pytest.approx(wanted)
 
 
+@pytest.mark.parametrize("order", [1, -1])
+def test_times_against_the_batch_are_those_of_the_finest_setting(given, order):
+    curves, draw, _ = given("trade")
+    (axes,) = [axes for axes in draw(curves[::order]).axes if axes.get_title().startswith("(d)")]
+    rows = curves[curves["e"] == 1]
+    fineness = rows["steps"].fillna(1 / rows["tolerance"]).fillna(0)
+    finest = rows.loc[fineness.groupby(rows["model"]).idxmax()].filter(regex="^time")
+    wanted = {tuple(row.dropna()) for _, row in finest.iterrows()}
+    assert {tuple(line.get_ydata()) for line in axes.lines} <= wanted and len(axes.lines) == 5
+
+
 # Parts that the drawings share
 
 
