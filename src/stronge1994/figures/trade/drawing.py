@@ -148,7 +148,7 @@ def _draw_others(axes: Axes, rows: Table, time: str, others: Table) -> None:
 
 def _draw_growth(axes: Axes, rows: Table, batches: Sequence[int]) -> None:
     """Draw time against the size of batch, with the finest setting of each model."""
-    for model, dashes in zip(GROWTH, ("-", *house_style.DASHES), strict=False):
+    for model, dashes in zip(GROWTH, house_style.DASHES, strict=True):
         own = rows[rows["model"] == model]
         finest = own.sort_values(["steps", "tolerance"], ascending=[True, False]).tail(1)
         columns = [f"time_{batch} [s]" for batch in batches]
