@@ -101,7 +101,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     figure.suptitle(f"(a) to (c): {batch} impacts together", fontsize=house_style.NOTE)
     styles = {str(style["label"]): style for style in MARKS.values()}
     keys = [house_style.key(**style) for style in styles.values()] + [Patch(**HIDDEN)]
-    house_style.legend_below(figure, keys[:10], keys[10:])
+    house_style.legend_below(figure, keys[:9], keys[9:])
     return figure
 
 
