@@ -6,6 +6,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from planarimpact import continuum
+from planarimpact.continuum import refinement
 from planarimpact.normal_impact import yielding
 
 
@@ -16,6 +17,18 @@ def test_many_impacts_are_solved_in_parts(monkeypatch):
     np.testing.assert_allclose(
         continuum.rebound(x, tolerance=1e-3).velocity, whole.velocity, atol=1e-14
     )
+
+
+def test_a_path_meets_its_tolerance_at_every_instant():
+    """Here its errors fall with the square of the steps, and vanish at both ends."""
+    one = np.ones(1)
+
+    def solve(steps):
+        place = np.linspace(0.0, 1.0, steps + 1)[:, None]
+        return place, place + 100 / steps**2 * np.sin(np.pi * place)
+
+    place, found = refinement.settled_path(solve, (0, 1), (one,) * 3, one, 1e-4 * one, 2**20)
+    assert np.abs(found - place).max() <= 1e-4
 
 
 def test_extrapolation_saves_steps(monkeypatch):

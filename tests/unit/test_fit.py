@@ -37,6 +37,7 @@ def measure():
 def about(pair):
     """Poisson's ratio, restitution and loss of a pair of the figure, or of an extreme one."""
     extremes = {"lossy": (0.5, 0.5, "plastic"), "elastic": (0.0, 1.0, "viscous")}
+    extremes |= {"damped": (0.5, 0.6, "viscous")}
     return extremes.get(pair) or tuple(measure().settings()["pairs"][pair].values())
 
 
@@ -168,10 +169,14 @@ def in_si(law, lines, x, mass, radius, wall=False, finer=1, begins=0.0, size=1e9
         turn = turn - kick * 2.5 * (1 - in_torque * depth / arm) * force
 
 
-@pytest.mark.parametrize("law", fit.CODES)
-def test_the_lines_have_the_contact_of_the_fit(law):
+@pytest.mark.parametrize(
+    ("law", "pair"),
+    [*((law, "lossy") for law in fit.CODES), ("mercurydpm", "damped"), ("yade", "damped")],
+)
+def test_the_lines_have_the_contact_of_the_fit(law, pair):
     """By the loop of each code, a number at a time, in SI units, from the printed numbers."""
-    one = found(law, "lossy")
+    one = found(law, pair)
+    assert pair == "lossy" or one.damping > 0.05  # a wrong dashpot would be seen
     lines = fit.lines(one, SOFT, **SPHERE)
     groups = 3.5, one.stiffness, one.damping, one.input_restitution
     said = re.findall(r"(?:before|after) +(\S+), (\S+) at x = ([\d.]+)", lines)
@@ -190,6 +195,17 @@ def test_the_lines_have_the_contact_of_the_fit(law):
         stepped, e = in_si(law, lines, one.incidence[places], *contact)
         np.testing.assert_allclose(stepped, steps, atol=1e-3, err_msg=name)
         assert e == pytest.approx(one.restitution, abs=2e-3)
+
+
+@pytest.mark.parametrize("law", fit.CODES)
+def test_without_loss_a_dashpot_is_fitted_where_the_code_has_one(law):
+    """Some codes state it as a multiple of the normal one, which is then 0."""
+    one = found(law, "elastic")
+    assert (one.damping == 0) == fit.CODES[law].by_normal
+    if one.damping:
+        groups = 3.5, one.stiffness, 0.0, one.input_restitution
+        undamped = timestep.with_dashpots(LAWS[law, one.style], one.incidence, *groups)
+        assert np.sqrt(np.mean((undamped - one.continuum) ** 2)) > one.error.rms
 
 
 @pytest.mark.parametrize("law", ["mercurydpm", "yade"])

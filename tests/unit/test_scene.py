@@ -294,6 +294,11 @@ def test_explain_says_what_the_loss_and_unlike_bodies_may_cost(monkeypatch):
     typical, most = np.sqrt(np.mean(form[1:4] ** 2)), form[:5].max()
     assert f"by {typical:.2g} mu v2(0) (root mean square), {most:.2g} at most: 4 imp" in cost
     assert np.isnan(form[5]) and form[6] == 0 and cost.endswith("4 impacts, not known for 1")
+    monkeypatch.setattr(solver, "BLOCK", 2)
+    for order in (alike, alike[::-1]):  # the largest difference is in another part
+        parts = scene.Solver(loss="viscous")
+        parts.solve(order)
+        assert parts.explain().splitlines()[-1] == cost
     found.solve(rows)
     *_, words, cost = found.explain().splitlines()
     assert "5 impacts may be off by more than 0.1 mu v2(0)" in words
