@@ -113,7 +113,7 @@ def laws() -> list[str]:
 
 
 def read(file: IO[bytes]) -> Table:
-    """Read a table that `write` wrote; one of other laws is refused."""
+    """Read a table of this package; one that was made from other laws is refused."""
     with np.load(file) as arrays:
         if (made := arrays.get("laws", np.empty(0)).tolist()) != laws():
             words = f"table of spheres: it was made from laws with {made}; allowed are {laws()}, or"
@@ -125,20 +125,6 @@ def read(file: IO[bytes]) -> Table:
             packed = (real(_summed(arrays[f"{name}.{key}"]), exponent) for key in PACKED)
             panels[name] = Panel(name, arrays[f"{name}.intervals"], *packed)
         return Table(exponent, arrays["limits"], panels)
-
-
-def write(file: IO[bytes], table: Table) -> None:
-    """Write a table, compressed: numbers are stored as `steps` of whole numbers."""
-    arrays: dict[str, Any] = {"exponent": table.exponent, "limits": table.limits, "laws": laws()}
-    for name, panel in table.panels.items():
-        arrays[f"{name}.intervals"] = panel.intervals
-        for key in PACKED:
-            difference = steps(whole(getattr(panel, key), table.exponent))
-            # The low bytes side by side, then the others: similar bytes compress well.
-            arrays[f"{name}.{key}"] = np.moveaxis(
-                difference.astype("<i4")[..., None].view(np.uint8), -1, 0
-            )
-    np.savez_compressed(file, **arrays)
 
 
 def whole(values: Array, exponent: int) -> Integers:
