@@ -241,6 +241,13 @@ def test_model_form_is_the_distance_of_the_two_continua():
     assert abs(plastic - viscous) > 0.02 * UNIT  # there is something to see
     for result in results:
         assert abs(result[FORM] - abs(plastic - viscous)) <= 0.011 * UNIT
+    # One that slides throughout with viscous loss, and sticks at the end with plastic loss.
+    rows = by_incidence([4.5], restitution=0.4)
+    results = [scene.solve(rows, 5e-3, loss).iloc[0] for loss in columns.LOSSES]
+    viscous, plastic = (result["contact_velocity_after [m/s]"] for result in results)
+    assert abs(plastic - viscous) > 0.1 * UNIT
+    for result in results:
+        assert abs(result[FORM] - abs(plastic - viscous)) <= 0.015 * UNIT
 
 
 # Methods, and what is said of them.

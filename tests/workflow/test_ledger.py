@@ -91,8 +91,11 @@ def wrong(values, part, by=1e3):
     return numbers if np.ndim(values) else numbers[0]
 
 
-def found_by(entry, monkeypatch, half, calls):
-    """What a check finds, by printed formulas that are wrong in one half; and their calls."""
+def found_by(entry, monkeypatch, half, calls, named=""):
+    """What a check finds, by printed formulas that are wrong in one half; and their calls.
+
+    Only those whose names match `named` are wrong, and counted.
+    """
     done = count()
 
     def formula(right):
@@ -106,7 +109,7 @@ def found_by(entry, monkeypatch, half, calls):
     with monkeypatch.context() as patch, np.errstate(all="ignore"):
         for module in (dissipation, dynamics, impact, peak_force, slip):
             for name, right in inspect.getmembers(module, inspect.isfunction):
-                if right.__module__ == module.__name__:
+                if right.__module__ == module.__name__ and re.match(named, name):
                     patch.setattr(module, name, formula(right))
         return str(run(entry["check"])), next(done)
 
@@ -125,6 +128,15 @@ def test_a_check_looks_at_both_halves(name, monkeypatch):
     ]
     empty = {"first calls": calls == 1, "first entries": max(sizes) == 1}
     assert unseen == [which for which, is_so in empty.items() if is_so]
+
+
+@pytest.mark.parametrize("name", [name for name in EXECUTED if re.fullmatch(r"eq-\d\d", name)])
+def test_a_check_looks_at_its_own_equation(name, monkeypatch):
+    """One of several that share a check: printed formulas have its number in their names."""
+    own = rf"eq_{int(name[3:])}\D"
+    right, calls = found_by(EXECUTED[name], monkeypatch, lambda *place: slice(0), 0, own)
+    wrong, _ = found_by(EXECUTED[name], monkeypatch, lambda *place: slice(None), 0, own)
+    assert calls and wrong != right
 
 
 def test_every_numbered_equation_has_an_executed_entry():
