@@ -17,11 +17,29 @@ NUMBERS = {
 }
 # All other kinds of values: a date would be no text.
 KINDS = ("str", "bool", "null", "seq", "map", "merge")
+MERGE = "tag:yaml.org,2002:merge"
 _Fast: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # some installations lack it
 
 
 class Loader(_Fast):
     """A loader that knows the numbers of YAML 1.2: 4e-1 too."""
+
+    def flatten_mapping(self, node: yaml.MappingNode) -> None:
+        """Put merged keys into a mapping: its own ones win, then those of the first source.
+
+        Versions of PyYAML differ here: 6.0.4 takes the key of a source's source before its own.
+        """
+        known: dict[str, tuple[yaml.Node, yaml.Node]] = {}
+        own = {key.value: (key, value) for key, value in node.value if key.tag != MERGE}
+        for key, value in node.value:
+            if key.tag != MERGE:
+                continue
+            for source in value.value if isinstance(value, yaml.SequenceNode) else [value]:
+                if not isinstance(source, yaml.MappingNode):
+                    raise yaml.MarkedYAMLError(None, None, "<< needs a mapping", key.start_mark)
+                self.flatten_mapping(source)
+                known = {one[0].value: one for one in source.value} | known
+        node.value = list((known | own).values())
 
 
 Loader.add_implicit_resolver("tag:yaml.org,2002:float", NUMBERS["float"], [*"+-.0123456789"])
