@@ -106,6 +106,26 @@ def opened(tab, first_run, tmp_path):
     assert tab.problems == []
 
 
+# Sigmas of readings on a map of 2 and 3 units a pixel, whose marks are off by half a pixel.
+SIGMAS = """readings.sigmas({{ scale: () => [2, 3], sigma: () => 0.5,
+  to_axes: ([u, v]) => [2 * u, 3 * v] }}, [[[0, 0], [40, 0]], [{second}]], [{width}], 800, {line})"""
+
+
+@pytest.mark.parametrize(
+    ("second", "width", "line", "variance"),
+    [
+        ("[1, 1], [41, 1]", 0, "false", 1 / 2 + 1 / 4),  # two readings, and the marks
+        ("[1, 1], [39, 1]", 4, "true", 1 / 2 + 1 / 4 + 4),  # half the width of the line besides
+    ],
+)
+def test_a_sigma_adds_up_what_its_origin_names(second, width, line, variance, tab, first_run):
+    tab.open((first_run[0] / "figures/your_copy.html").as_uri())
+    found = tab.evaluate(SIGMAS.format(second=second, width=width, line=line))
+    assert found["x"] / 2 == pytest.approx(np.sqrt(variance)) == pytest.approx(found["y"] / 3)
+    assert ("half the width of the line" in found["origin"]) == bool(width)
+    assert found["origin"].endswith("; residual of the marks")
+
+
 def rms(errors):
     return np.sqrt(np.mean(np.square(errors), axis=0))
 
