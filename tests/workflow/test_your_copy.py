@@ -108,7 +108,8 @@ def opened(tab, first_run, tmp_path):
 
 # Sigmas of readings on a map of 2 and 3 units a pixel, whose marks are off by half a pixel.
 SIGMAS = """readings.sigmas({{ scale: () => [2, 3], sigma: () => 0.5,
-  to_axes: ([u, v]) => [2 * u, 3 * v] }}, [[[0, 0], [40, 0]], [{second}]], [{width}], 800, {line})"""
+  to_axes: ([u, v]) => [2 * u, 3 * v] }},
+  [[[0, 0], [40, 0]], [{second}]], [{width}], 800, {line})"""
 
 
 @pytest.mark.parametrize(
