@@ -14,11 +14,19 @@ import os
 import pytest
 from hypothesis import settings
 
-# Before numpy. Two workers with two threads each on two cores wait for each other: annuli, which
-# solve small systems of equations, then take ten times as long.
+from tests import programs
+
+# Before numpy. Two workers with two threads each on two cores wait for each other: small systems of
+# equations then take ten times as long.
 os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 EXAMPLES = 100
+
+
+def pytest_report_header():
+    """What will be skipped, so that nobody wonders at the end."""
+    return programs.report()
+
 
 settings.register_profile("house", max_examples=EXAMPLES, deadline=None, derandomize=True)
 settings.register_profile("long", max_examples=75 * EXAMPLES, deadline=None)

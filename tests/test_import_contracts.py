@@ -39,7 +39,6 @@ SOLVER = {
 # The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
 REPRODUCTION = {
     "__init__": "",
-    "one_thread": "",
     "names": "",
     "words": "names",
     "tables": "common pandas",
@@ -74,8 +73,7 @@ CONTRACTS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # Of a package of the solver others import its `__init__` or one of these. In `common` and in the
 # reproduction every module is public.
 PUBLIC_MODULES = {
-    "continuum.inelastic",  # single steps, from which the table of spheres is made
-    "continuum.annuli",  # the second method, a check of the first
+    "continuum.inelastic",  # single steps, and motions of one's own
     "normal_impact.hertz",
     "normal_impact.kelvin_voigt",
     "normal_impact.yielding",

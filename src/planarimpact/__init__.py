@@ -4,7 +4,6 @@
   below e = 1 the evidence on the paper's is divided. `rigid`: its limit without tangential
   compliance.
 - `continuum`: spheres with micro-slip, elastic or with a loss of energy, to a tolerance.
-  `continuum.annuli` solves the elastic one by a second method that shares no code with the first.
 - `spheres`: the continuum from a table, for impacts that are each their own pair.
 - `models`: every model by its name. `models.laws` makes one of a velocity of your own.
 - `export`: writes collisions of spheres as C or JavaScript.
@@ -36,7 +35,7 @@ An example runs after `import numpy as np` and `from planarimpact.lumped import 
 stands for the module on whose page it is.
 """
 
-__version__ = "0.2.0"  # before the imports, as `export` writes it into its files
+__version__ = "0.3.0"  # before the imports, as `export` writes it into its files
 
 from planarimpact import (
     bodies,

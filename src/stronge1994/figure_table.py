@@ -71,8 +71,7 @@ def of_run(rows: Sequence[Row], shows: Mapping[str, str]) -> list[FigureRow]:
         table[column] = pd.to_numeric(table[column])
     severity = [list(Verdict).index(Verdict(verdict)) for verdict in table["verdict"]]
     table = table.assign(severity=severity, source=table["reference"].str.split("/").str[0])
-    by_figure = {name: table[table["figure"] == name] for name in shows}
-    return [_figure_row(name, shows[name], own) for name, own in by_figure.items()]
+    return [_figure_row(name, shows[name], table[table["figure"] == name]) for name in shows]
 
 
 def _figure_row(name: str, shows: str, rows: Table) -> FigureRow:
@@ -80,8 +79,8 @@ def _figure_row(name: str, shows: str, rows: Table) -> FigureRow:
     shown = others["model"].isin(MODELS_OF_PAPER) | (others["verdict"] == Verdict.FAILS)
     printed = rows[rows["group"] == Group.PRINTED]
     awaited = int((printed["why"] == Why.AWAITED).sum())
-    items = _items(paper), _items(others[shown])
-    return FigureRow(name, shows, awaited, list(_printed(printed)), *map(list, items))
+    items = map(list, (_printed(printed), _items(paper), _items(others[shown])))
+    return FigureRow(name, shows, awaited, *items)
 
 
 def _printed(rows: Table) -> Iterator[Item]:

@@ -1,2 +1,2 @@
-"""Codes that make tables with the package's own solvers, so that none of them is a second solution:
-the elastic continuum by annuli, the example scenes."""
+"""Codes that make tables with the package's own solvers: the splines of `planarimpact.spheres`, the
+example scenes, and the elastic continuum by annuli, which the package's continuum checks."""

@@ -11,8 +11,7 @@ import sys
 import numpy as np
 
 from planarimpact import continuum
-from planarimpact.continuum import annuli
-from tests.reference_solutions import exact_tables, table_files
+from tests.reference_solutions import annuli, exact_tables, table_files
 
 CIRCLES, STEPS = 128, 8192
 INCIDENCE = np.round(np.linspace(0.0, 10.0, 101), 1)

@@ -10,7 +10,6 @@ import pandas as pd
 import pytest
 
 from planarimpact import ConvergenceError, InputError, continuum, lumped, models, scene
-from planarimpact.continuum import annuli
 from planarimpact.models import laws
 
 NAMES = ["linear", "mindlin", "mindlin_rescaled"]
@@ -67,22 +66,15 @@ def test_laws_of_impulses(law):
         assert_possible(law(x, *groups), x)
 
 
-def elastic_annuli(*groups, steps):
-    return annuli.rebound(*groups, circles=4, steps=steps)
-
-
-@pytest.mark.parametrize(
-    ("law", "gain", "least"),
-    [(LINEAR, 0.03, 60), (MINDLIN, 0.06, 60), (RESCALED, 0.0, 60), (elastic_annuli, 0.02, 10)],
-)
-def test_laws_in_steps(law, gain, least):
+@pytest.mark.parametrize(("law", "gain"), [(LINEAR, 0.03), (MINDLIN, 0.06), (RESCALED, 0.0)])
+def test_laws_in_steps(law, gain):
     solved = 0
-    for x, *groups in box([1.0] if law is elastic_annuli else RESTITUTIONS[::2]):
+    for x, *groups in box(RESTITUTIONS[::2]):
         result = answered(lambda x=x, groups=groups: law(x, *groups, steps=64))
         if result is not None:
             solved += 1
             assert_possible(result, x, gain)
-    assert solved > least
+    assert solved > 60
 
 
 @pytest.mark.parametrize("law", STEPPED, ids=NAMES)

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from planarimpact import continuum
-from planarimpact.continuum import annuli, cattaneo_mindlin
 from tests.package_tables import annuli_tables
-from tests.reference_solutions import table_files
+from tests.reference_solutions import annuli, cattaneo_mindlin, table_files
 
 STEEL = 17 / 14
 
@@ -62,7 +61,7 @@ def test_annuli_converge_with_the_square_of_the_circles():
 
 
 def test_annuli_under_constant_normal_force_are_cattaneo_and_mindlin():
-    path = [0.0, 0.3, 0.6, 0.9, 0.5, 0.1, -0.4, -0.9]
+    path = np.array([0.0, 0.3, 0.6, 0.9, 0.5, 0.1, -0.4, -0.9])
     force = annuli.friction(np.ones(8), path, circles=80)
     np.testing.assert_allclose(force[:4], cattaneo_mindlin.friction(path[:4]), atol=1e-4)
     np.testing.assert_allclose(force[3:], cattaneo_mindlin.unloading(path[3:], 0.9), atol=1e-4)

@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, continuum, export, spheres
-from planarimpact.spheres import making, table, thresholds
+from planarimpact.spheres import table
+from tests.package_tables import spheres_tables, spheres_thresholds
 from tests.reference_solutions import inelastic_contact
 
 # Of the continuum, whose errors are below half of it. Next to e = 0.3 a plastic one meets no less.
@@ -91,7 +92,9 @@ def impacts(name, number, at):
     found = np.empty((3, number.size))
     for patch in range(panel.intervals.size):
         rows = number == patch
-        found[:, rows] = making.impacts(name, panel.edges, shipped.limits, patch, *at[:, rows])
+        found[:, rows] = spheres_tables.impacts(
+            name, panel.edges, shipped.limits, patch, *at[:, rows]
+        )
     y, b, e = found
     b = np.clip(b, spheres.LEAST_RATIO, spheres.LARGEST_RATIO)
     e = np.clip(e, spheres.LEAST_RESTITUTION, 1.0)
@@ -160,8 +163,8 @@ def test_below_x_of_1_the_error_is_over_x(name, count):
     x, zeta2 = np.array([1e-9, 1e-4, 1e-3, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.3, 0.9]), 1.6
     loss, shipped = name.partition("_")[0], table.shipped()
     for t, u in np.random.default_rng(21).random((count, 2)):
-        b = np.clip(making.b_at(u), spheres.LEAST_RATIO, spheres.LARGEST_RATIO)
-        e = making.e_at(name, t, table.limits_at(shipped, np.array([u]))[:, 0])
+        b = np.clip(spheres_tables.b_at(u), spheres.LEAST_RATIO, spheres.LARGEST_RATIO)
+        e = spheres_tables.e_at(name, t, table.limits_at(shipped, np.array([u]))[:, 0])
         e = np.clip(e, spheres.LEAST_RESTITUTION, inelastic_contact.LARGEST_RESTITUTION)
         wanted = inelastic_contact.small_incidences(loss, x, b * zeta2, zeta2, e)
         found = spheres.rebound(x, b * zeta2, zeta2, e, loss=loss).velocity / x
@@ -223,7 +226,7 @@ def test_the_work_of_a_viscous_slide_needs_no_table():
 
 def test_a_table_is_read_as_it_was_written():
     shipped, file = table.shipped("coarse"), io.BytesIO()
-    table.write(file, shipped)
+    spheres_tables.write(file, shipped)
     again = table.read(io.BytesIO(file.getvalue()))
     assert again.exponent == shipped.exponent and str(again) == str(shipped)
     for one, other in zip(shipped.panels.values(), again.panels.values(), strict=True):
@@ -235,15 +238,15 @@ def test_a_table_is_read_as_it_was_written():
 )
 def test_the_job_makes_the_shipped_table(name, number):
     """One patch of the coarse one, which takes the least time."""
-    plan, shipped = making.PLANS["coarse"], table.shipped("coarse")
+    plan, shipped = spheres_tables.PLANS["coarse"], table.shipped("coarse")
     u = np.linspace(0, 1, plan.edges[1] + 1)[::16]
     np.testing.assert_allclose(
-        shipped.limits[:, ::16], thresholds.limits(making.b_at(u)), atol=1e-7
+        shipped.limits[:, ::16], spheres_thresholds.limits(spheres_tables.b_at(u)), atol=1e-7
     )
     panel = shipped.panels[name]
-    values = making.nodes_of(name, plan, panel.edges, shipped.limits, number)
+    values = spheres_tables.nodes_of(name, plan, panel.edges, shipped.limits, number)
     first = int(np.sum(panel.intervals[:number] + 3))
     own = slice(first, first + panel.intervals[number] + 3)
     for coefficients, wanted in zip((panel.velocity, panel.peak), values, strict=False):
-        fit = making.splined(wanted)
+        fit = spheres_tables.splined(wanted)
         np.testing.assert_allclose(coefficients[own], fit, rtol=0, atol=2.0**-shipped.exponent)

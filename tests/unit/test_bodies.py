@@ -1,9 +1,11 @@
 """Bodies and materials: known values, limits, conservation laws."""
 
+import re
+
 import numpy as np
 import pytest
 
-from planarimpact import bodies, lumped
+from planarimpact import InputError, bodies, fit, lumped
 from planarimpact.bodies import HALF_SPACE, Body, Material, Motion
 from tests.reference_solutions.inelastic_contact import motion_with, plastic_motion
 
@@ -195,9 +197,23 @@ def test_what_is_out_of_range_is_named_with_its_place():
     messages = refusal.value.messages
     words = {i: message.partition(":")[0] for i, message in messages.items()}
     assert words == {1: "relaxation_time = 0.1", 2: "relaxation_time = 0.2"}
-    limits = [float(message.split()[8]) for message in messages.values()]
-    found = bodies.viscous_restitution([9.0, 1.0], np.multiply(limits, 0.999), **STEEL)
+
+
+def test_a_limit_that_a_refusal_prints_is_allowed():
+    """Of relaxation times, and of speeds of spheres in other codes; four digits are enough."""
+    speeds = np.geomspace(1e-3, 1e3, 200)
+    with pytest.raises(bodies.OutOfRange) as refusal:
+        bodies.viscous_restitution(speeds, 1e9, **STEEL)
+    said = [refusal.value.messages[i] for i in range(speeds.size)]
+    limits = [float(re.search("up to (.*?) here", message)[1]) for message in said]
+    found = bodies.viscous_restitution(speeds, limits, **STEEL)
     np.testing.assert_allclose(found, bodies.LEAST_RESTITUTION, rtol=1e-2)
+    for density in np.geomspace(10, 1e5, 50):
+        sphere = GLASS, 0.005, float(density)
+        with pytest.raises(InputError) as refusal:
+            fit.overlap(*sphere, 1e6)
+        limit = float(re.search("up to (.*?) m/s", str(refusal.value))[1])
+        assert fit.overlap(*sphere, limit) == pytest.approx(0.1, rel=1e-3)
 
 
 def test_dundurs_constant_is_that_of_the_text_books():

@@ -6,20 +6,29 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from planarimpact import continuum
-from planarimpact.continuum import annuli
+from planarimpact.continuum import refinement
 from planarimpact.normal_impact import yielding
 
-# What is tested of them here does not depend on how exact they are.
-COARSE = {continuum.rebound: {"tolerance": 1e-3}, annuli.rebound: {"circles": 8, "steps": 64}}
 
-
-@pytest.mark.parametrize("solver", [continuum.rebound, annuli.rebound])
-def test_many_impacts_are_solved_in_parts(solver, monkeypatch):
-    x, coarse = np.linspace(0.1, 5.0, 3), COARSE[solver]
-    whole = solver(x, **coarse)
+def test_many_impacts_are_solved_in_parts(monkeypatch):
+    x = np.linspace(0.1, 5.0, 3)
+    whole = continuum.rebound(x, tolerance=1e-3)
     monkeypatch.setattr(continuum.elastic, "CELLS", 100)
-    monkeypatch.setattr(annuli, "CELLS", 2 * 8**2)
-    np.testing.assert_allclose(solver(x, **coarse).velocity, whole.velocity, atol=1e-14)
+    np.testing.assert_allclose(
+        continuum.rebound(x, tolerance=1e-3).velocity, whole.velocity, atol=1e-14
+    )
+
+
+def test_a_path_meets_its_tolerance_at_every_instant():
+    """Here its errors fall with the square of the steps, and vanish at both ends."""
+    one = np.ones(1)
+
+    def solve(steps):
+        place = np.linspace(0.0, 1.0, steps + 1)[:, None]
+        return place, place + 100 / steps**2 * np.sin(np.pi * place)
+
+    place, found = refinement.settled_path(solve, (0, 1), (one,) * 3, one, 1e-4 * one, 2**20)
+    assert np.abs(found - place).max() <= 1e-4
 
 
 def test_extrapolation_saves_steps(monkeypatch):

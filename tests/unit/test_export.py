@@ -2,7 +2,6 @@
 
 import re
 import shlex
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -12,7 +11,9 @@ import pytest
 from planarimpact import Regime, collision, export, spheres
 from planarimpact.__main__ import main
 from planarimpact.bodies import Body, Material, stiffness_ratio
-from planarimpact.spheres import making, table
+from planarimpact.spheres import table
+from tests import programs
+from tests.package_tables import spheres_tables
 from tests.property import test_collide
 
 PROGRAMS = Path(__file__).parent / "export"
@@ -67,7 +68,7 @@ REFUSED = [
 ]
 FLAGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wdouble-promotion"]
 FLAGS += ["-Werror"]
-COMPILERS = {"c": (("cc", "gcc", "clang"), "-std=c99"), "cpp": (("c++", "g++", "clang++"), "-xc++")}
+COMPILERS = {"c": ("spheres in C", "-std=c99"), "cpp": ("spheres in C++", "-xc++")}
 # What a caller of JavaScript forgets or mistakes, and how the message begins.
 MISTAKES = {
     "[{ ...pair, loss: undefined }, up, ball, down, zero]": "pair.loss = undefined: ",
@@ -81,17 +82,6 @@ MISTAKES = {
     "[pair, up, { mass: 1, radius: 1 }, down, zero]": "body.gyration = undefined: ",
     "[pair, up, ball, down, zero, null, zero, zero]": "other = null: allowed is an object",
 }
-
-
-def program(*names):
-    """The first of some programs that is installed; Playwright brings a node of its own."""
-    found = next(filter(None, map(shutil.which, names)), None)
-    if found is None and "node" in names:
-        driver = pytest.importorskip("playwright._impl._driver", reason="node is not installed")
-        found = driver.compute_driver_executable()[0]
-    if found is None:
-        pytest.skip(f"none of {', '.join(names)} is installed")
-    return str(found)
 
 
 @pytest.fixture(scope="module")
@@ -110,12 +100,12 @@ def folder(tmp_path_factory):
 
 def run(folder, language, name, job, rows):
     """Answers to rows of impacts, and messages; what is not compiled yet is compiled first."""
-    command = [program("node"), f"run_{name}.mjs"]
+    command = [programs.needed("spheres in JavaScript"), f"run_{name}.mjs"]
     if language != "js":
         command = [f"./{language}_{name}"]
         if not (folder / command[0]).exists():
             compiler = [*COMPILERS[language], *FLAGS, "-O2", f"run_{name}.c", "-o", command[0]]
-            compiler[0] = program(*compiler[0])
+            compiler[0] = programs.needed(compiler[0])
             done = subprocess.run([*compiler, "-lm"], cwd=folder, capture_output=True, text=True)
             assert done.returncode == 0, done.stderr
     rows.tofile(folder / "in")
@@ -126,7 +116,7 @@ def run(folder, language, name, job, rows):
 def said_by_node(folder, name, text):
     """Lines that a program in JavaScript prints."""
     (folder / name).write_text(text)
-    command = [program("node"), name]
+    command = [programs.needed("spheres in JavaScript"), name]
     done = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
     return done.stdout.splitlines()
 
@@ -141,7 +131,7 @@ def sphere_edges(shipped, random):
         for number, intervals in enumerate(panel.intervals):
             shape = np.array([intervals, *sizes])[:, None]
             s, t, u = random.integers(0, 1 + shape, (3, EDGES)) / shape
-            y, b, e = making.impacts(name, panel.edges, shipped.limits, number, s, t, u)
+            y, b, e = spheres_tables.impacts(name, panel.edges, shipped.limits, number, s, t, u)
             varying = table.varying_edges(panel.edges, t, u)
             loss = np.full(EDGES, 1.0 + (name != "viscous"))
             for x in np.broadcast_arrays(y, *table.edges_of(name, varying, b, e)[1:]):
@@ -221,9 +211,16 @@ def test_files_name_their_range_and_errors(name, folder):
 
 def test_a_header_meets_cpp_and_never_a_compiler_without_nan(folder):
     """A compiler without NaN may drop the test of the range, and a table is read beyond its end."""
-    for names, standard in COMPILERS.values():
+    for what, standard in COMPILERS.values():
         for option, works in (("-Werror", True), ("-ffast-math", False)):
-            command = [program(*names), standard, *FLAGS, option, "-fsyntax-only", "run_coarse.c"]
+            command = [
+                programs.needed(what),
+                standard,
+                *FLAGS,
+                option,
+                "-fsyntax-only",
+                "run_coarse.c",
+            ]
             done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
             assert (done.returncode == 0) == works, done.stderr
             assert works or "This header needs NaN" in done.stderr
@@ -233,13 +230,13 @@ def test_a_header_meets_cpp_and_never_a_compiler_without_nan(folder):
 
 
 @pytest.mark.parametrize(
-    ("language", "file", "commands"),
+    ("language", "file", "what", "options"),
     [
-        ("c", "main.c", "cc -std=c99 -O2 main.c -lm; ./a.out"),
-        ("js", "main.mjs", "node main.mjs"),
+        ("c", "main.c", "spheres in C", "-std=c99 -O2 main.c -lm"),
+        ("js", "main.mjs", "spheres in JavaScript", "main.mjs"),
     ],
 )
-def test_the_readme_prints_what_it_says(language, file, commands, tmp_path, monkeypatch):
+def test_the_readme_prints_what_it_says(language, file, what, options, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     section = README.read_text(encoding="utf-8").split("## In C and JavaScript")[1]
     written = re.findall(rf"^\S+/planarimpact (.* --as {language} .*)$", section, flags=re.M)
@@ -247,9 +244,10 @@ def test_the_readme_prints_what_it_says(language, file, commands, tmp_path, monk
     blocks = re.findall(rf"```{language}\n(.*?)```", section, flags=re.S)
     assert len(written) == len(blocks) == 1
     (tmp_path / file).write_text(blocks[0])
-    for command in map(str.split, commands.split("; ")):
-        command[0] = command[0] if command[0] == "./a.out" else program(command[0])
-        done = subprocess.run(command, check=True, capture_output=True, text=True)
+    command = [programs.needed(what), *options.split()]
+    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    if language == "c":
+        done = subprocess.run(["./a.out"], check=True, capture_output=True, text=True)
     said = re.findall(r"^ *(?:printf|console.log)\(.*; // (.*)$", blocks[0], flags=re.M)
     assert said and done.stdout.splitlines() == said
 

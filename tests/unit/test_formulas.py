@@ -5,7 +5,7 @@ from pathlib import Path
 
 import yaml
 
-from stronge1994 import formulas, ledger
+from stronge1994 import formulas, ledger, words
 from stronge1994.settings import figures
 
 ROOT = Path(__file__).parents[2]
@@ -22,11 +22,18 @@ def texts(content):
         yield content
 
 
+def test_a_unit_that_readers_see_is_that_of_the_table():
+    """Its formula has the same letters, so that no two units look alike."""
+    others = {"1": "", "us": "µs", "deg": " deg", "kg/m^3": "kg/m³"}
+    for name, shown in words.UNITS.items():
+        assert formulas.plain(shown) == others.get(name, name)
+
+
 def test_every_formula_can_be_set():
     """And what is left beside it has no stray `$` or command."""
     files = [*(ROOT / "data").glob("*/*.yaml"), *figures.FOLDER.glob("*/figure.yaml")]
     assert len(files) > 30
     contents = [yaml.safe_load(path.read_text(encoding="utf-8")) for path in files]
     for text in texts([contents, [check.__doc__ for check in ledger.checks().values()]]):
-        words = re.sub("<math.*?</math>|<code>.*?</code>", "", formulas.mathematical(text))
-        assert not re.search(r"[$\\]", words + formulas.plain(text)), text
+        rest = re.sub("<math.*?</math>|<code>.*?</code>", "", formulas.mathematical(text))
+        assert not re.search(r"[$\\]", rest + formulas.plain(text)), text

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planarimpact import ConvergenceError, EventKind, Regime, lumped, rigid
+from planarimpact import ConvergenceError, Event, EventKind, Regime, lumped, rigid
 from planarimpact.lumped import losses, slip_onset, stick_slip
 from tests.reference_solutions import high_precision
 
@@ -104,6 +104,11 @@ def test_a_history_is_that_of_its_rebound(groups, x, loss):
     assert kinds[0] == EventKind.CONTACT and kinds[-1] == EventKind.SEPARATION
     assert kinds.count(EventKind.MAXIMUM_COMPRESSION) == 1
     assert list(times) == sorted(times) and set(times) <= set(contact.time)
+    assert times[kinds.index(EventKind.MAXIMUM_COMPRESSION)] == 1
+    columns = np.stack([getattr(contact, name) for name in Event._fields[1:]])
+    for event in contact.events:  # each has the state of a vertex at its time
+        state = np.array(event[1:], float)[:, None]
+        assert (columns == state).all(axis=0).any(), event
     mirrored = lumped.history(-x, *groups, samples=2000, loss=loss)
     for name in ("friction", "velocity", "spring"):
         np.testing.assert_array_equal(getattr(mirrored, name), -getattr(contact, name))

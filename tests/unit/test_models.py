@@ -12,7 +12,6 @@ COARSE = {
     "continuum": {"tolerance": 1e-3},
     "continuum.viscous": {"tolerance": 1e-2},
     "continuum.plastic": {"tolerance": 1e-2},
-    "annuli": {"circles": 6, "steps": 48},
 }
 MODELS = list(models.MODELS.values())
 # Incidence from which a model slides throughout, (1 + e) m2/m1 less what compliance holds. That of

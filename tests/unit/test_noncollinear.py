@@ -57,7 +57,7 @@ def test_a_history_of_little_restitution_ends_at_separation(e):
 def test_impacts_that_rattle_on_are_named_and_the_others_answered(monkeypatch):
     """Friction holds the contact closed (mu C > 1), and the stiff unloading element rattles."""
     monkeypatch.setattr(solver, "MOST_PHASES", 60)
-    monkeypatch.setattr(noncollinear, "CHUNK", 2)
+    monkeypatch.setattr(solver, "CHUNK", 2)
     settings = 1.0, InverseMass(1.0, 0.75, 1.0), 6.0, 1e-9, 20.0
     v1 = np.array([[0.0, 0.5], [0.0, 12.0]])
     with pytest.warns(RuntimeWarning, match="1 of 4 impacts given up.*impact 3.*'friction': 6.0"):

@@ -81,9 +81,9 @@ def test_a_number_of_yaml_may_have_any_notation(text, tmp_path):
 
 def test_a_merge_may_be_overridden_and_merged_again(tmp_path):
     path = tmp_path / "a.yaml"
-    path.write_text("top:\n  c: {<<: &b {<<: &a {k: 1}, k: 2}, k: 3}\nb: *b\na: *a\n")
+    path.write_text("top:\n  c: {<<: &b {<<: &a {k: 1}, k: 2}, k: 3}\nb: *b\na: *a\nd: {<<: *b}\n")
     assert reference_data.load_yaml(path) == {
-        "top": {"c": {"k": 3}}, "b": {"k": 2}, "a": {"k": 1},
+        "top": {"c": {"k": 3}}, "b": {"k": 2}, "a": {"k": 1}, "d": {"k": 2},
     }  # fmt: skip
 
 

@@ -37,7 +37,7 @@ def judged(tmp_path):
             pd.DataFrame({"angle [deg]": x, "peak_force [N]": y}).to_csv(file, index=False)
             references[f"they/{force}"] |= {"kind": "digitised", "path": str(file)}
         every = [Comparison.of(force, entries[force], references) for force in entries]
-        together = scales.sharing(every[0], every, {})
+        together = scales.sharing("force", every, {})
         found = compare("fig0", str(path), entries, references, 0.01, {})
         return (
             {row["comparison"]: row for row in found},

@@ -241,6 +241,13 @@ def test_model_form_is_the_distance_of_the_two_continua():
     assert abs(plastic - viscous) > 0.02 * UNIT  # there is something to see
     for result in results:
         assert abs(result[FORM] - abs(plastic - viscous)) <= 0.011 * UNIT
+    # One that slides throughout with viscous loss, and sticks at the end with plastic loss.
+    rows = by_incidence([4.5], restitution=0.4)
+    results = [scene.solve(rows, 5e-3, loss).iloc[0] for loss in columns.LOSSES]
+    viscous, plastic = (result["contact_velocity_after [m/s]"] for result in results)
+    assert abs(plastic - viscous) > 0.1 * UNIT
+    for result in results:
+        assert abs(result[FORM] - abs(plastic - viscous)) <= 0.015 * UNIT
 
 
 # Methods, and what is said of them.
@@ -294,6 +301,11 @@ def test_explain_says_what_the_loss_and_unlike_bodies_may_cost(monkeypatch):
     typical, most = np.sqrt(np.mean(form[1:4] ** 2)), form[:5].max()
     assert f"by {typical:.2g} mu v2(0) (root mean square), {most:.2g} at most: 4 imp" in cost
     assert np.isnan(form[5]) and form[6] == 0 and cost.endswith("4 impacts, not known for 1")
+    monkeypatch.setattr(solver, "BLOCK", 2)
+    for order in (alike, alike[::-1]):  # the largest difference is in another part
+        parts = scene.Solver(loss="viscous")
+        parts.solve(order)
+        assert parts.explain().splitlines()[-1] == cost
     found.solve(rows)
     *_, words, cost = found.explain().splitlines()
     assert "5 impacts may be off by more than 0.1 mu v2(0)" in words

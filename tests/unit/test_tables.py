@@ -1,8 +1,7 @@
-"""Tables of curves: what is written is read again, and what is none is refused."""
+"""Tables of curves: what is written is read again; tests/refusals has what is none."""
 
 import numpy as np
 import pandas as pd
-import pytest
 
 from stronge1994 import tables
 
@@ -22,20 +21,3 @@ def test_a_table_is_read_as_it_was_written_to_the_last_bit(tmp_path):
     pd.testing.assert_frame_equal(again, table, check_exact=True, check_like=True)
     found = again["x [1]"].to_numpy()[: len(numbers)]
     assert np.array_equal(found.view(np.uint64), numbers.view(np.uint64))  # also the sign of 0
-
-
-@pytest.mark.parametrize(
-    ("cell", "found"), [("inf", "inf"), ("one", "one"), ("", "nan")], ids=["inf", "text", "empty"]
-)
-def test_a_quantity_that_is_no_finite_number_is_refused(cell, found, tmp_path):
-    (tmp_path / "a.csv").write_text(f"curve,model,x [1],y [1]\na,a,0,1\na,a,2,{cell}\n")
-    with pytest.raises(ValueError) as refused:
-        tables.read(tmp_path / "a.csv")
-    assert str(refused.value) == (
-        f"curve 'a', column 'y [1]' is {found} where 'x [1]' is 2: allowed are finite numbers"
-    )
-
-
-def test_two_curves_of_one_name_are_refused():
-    with pytest.raises(ValueError, match="two curves have the name 'a, e = 1': allowed is one"):
-        tables.join([tables.curve({"x [1]": [0.0]}, "a", e=1.0)] * 2)

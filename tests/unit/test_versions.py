@@ -1,20 +1,16 @@
 """On what a run was made: this checkout, whatever git is told."""
 
-import shutil
 import subprocess
 
-import pytest
-
 from stronge1994 import versions
+from tests import programs
 
 
 def test_the_commit_is_that_of_the_folder_whatever_git_is_told(tmp_path, monkeypatch):
     assert versions.commit(tmp_path) == versions.NO_COMMIT
-    if shutil.which("git") is None:
-        pytest.skip("git is missing")
-    commits = {}
+    program, commits = programs.needed("the commit of a checkout"), {}
     for name in ("ours", "other"):
-        git = ["git", "-C", str(tmp_path / name), "-c", "user.name=a", "-c", "user.email=a@b"]
+        git = [program, "-C", str(tmp_path / name), "-c", "user.name=a", "-c", "user.email=a@b"]
         (tmp_path / name).mkdir()
         for command in (["init", "-q"], ["commit", "-q", "--allow-empty", "-m", name]):
             subprocess.run([*git, *command], check=True)

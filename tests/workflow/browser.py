@@ -5,12 +5,11 @@ Every wait has a limit.
 
 import contextlib
 import json
-import shutil
 
-import pytest
 from playwright.sync_api import Error, sync_playwright
 
-NAMES = ("chromium", "chromium-browser", "google-chrome")
+from tests import programs
+
 # For wait_for_function(): Playwright's own evaluate() waits for a page that hangs for ever.
 EVALUATE = """async (expression) => {
   try { return [JSON.stringify(await (0, eval)(expression)) ?? "null", null]; }
@@ -67,9 +66,7 @@ def page(timeout=20.0):
 
     `timeout` is the longest wait for an answer, in seconds.
     """
-    program = next(filter(None, map(shutil.which, NAMES)), None)
-    if program is None:
-        pytest.skip(f"no browser to test the page with: none of {', '.join(NAMES)} is installed")
+    program = programs.needed("pages in a browser")
     with sync_playwright() as driver:
         chromium = driver.chromium.launch(executable_path=program)
         try:

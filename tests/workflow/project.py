@@ -118,8 +118,9 @@ def copy_of(source, folder, parts=PARTS):
     for part in dict.fromkeys(parts):
         origin = source / part
         if origin.is_dir():
-            # The pictures of the README are in the repository, and no run makes them.
-            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info", "preview*.png")
+            # The pictures of the README are in the repository, and no run makes them. The lock of a
+            # run that goes on in the origin is not one of the copy.
+            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info", "preview*.png", "locks")
             shutil.copytree(origin, folder / part, ignore=ignore, dirs_exist_ok=True)
         elif origin.exists():
             (folder / part).parent.mkdir(parents=True, exist_ok=True)

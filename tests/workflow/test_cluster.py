@@ -11,7 +11,7 @@ from tests.workflow.project import ROOT, Project
 
 SHOTS = (ROOT / "data/scenes/shot_peening.csv").read_text().splitlines(keepends=True)
 # What a shell would read otherwise, names in capitals, and what is no table.
-NAMES = ["a b.csv", "it's.csv", "amp&touch.csv", "semi;touch.csv", "(x).csv", "$HOME.csv", "D.CSV"]
+NAMES = ["it's $HOME (x); touch a & b.csv", "D.CSV"]
 NO_TABLES = ["notes.txt", "._a.csv"]
 
 

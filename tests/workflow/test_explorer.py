@@ -18,6 +18,7 @@ from planarimpact import bodies, collision, continuum, lumped
 from stronge1994 import settings as figure_settings
 from stronge1994.explorer import page as write_explorer
 from stronge1994.settings import figures
+from tests.reference_solutions import table_files
 from tests.workflow import node
 from tests.workflow.project import config
 
@@ -369,7 +370,7 @@ def test_presets_stand_where_the_figures_say():
         assert write_explorer.presets(settings | {"stiffness_ratio": stiffness_ratio}) == {}
 
 
-def test_balls_have_the_numbers_of_their_presets():
+def test_balls_have_the_numbers_of_their_presets_and_sources():
     text = (node.FOLDER / "materials.yaml").read_text(encoding="utf-8")
     for ball, said in zip(yaml.safe_load(text)["balls"], write_explorer.balls(text), strict=True):
         state = dict(one.split("=") for one in said["address"].split("&"))
@@ -380,6 +381,11 @@ def test_balls_have_the_numbers_of_their_presets():
             ball["state"] = own | ball["state"]
             assert zeta2 == pytest.approx(given.pair.stiffness_ratio, abs=1e-3)
             assert state["loss"] == ("plastic" if given.pair.plastic else "viscous")
+        # Of the chart of materials: the row that name and source name.
+        if "data/cornell1999" in (words := f"{ball['name']}, {ball.get('source')}"):
+            (row,) = [one for one in table_files.read("cornell1999/pairs") if one["pair"] in words]
+            for name in ("friction", "restitution"):
+                assert ball["state"][name] == float(row[f"{name} [1]"]), ball["name"]
         # No ball is thrown on a threshold, where a last digit would decide what is said.
         x = math.tan(math.radians(float(state["angle"]))) / float(state["friction"])
         beta, e = float(state.get("mass_ratio", 3.5)), float(state["restitution"])
@@ -427,6 +433,26 @@ def test_the_numbers_shown_are_those_of_the_package(show):
     ends = [e**2 * starts[0], starts[1] * (own.velocity / x) ** 2, 0, 0, (1 - e**2) * starts[0]]
     for column, shares in zip(cells.T, (starts, starts, [*ends, share]), strict=True):
         assert np.abs(numbers(column) - shares).max() <= 0.06
+    # In restitution, by the words of each row.
+    type_in(tab, "time", str(tab.evaluate(f"{segment}.start + 0.8 * {segment}.length")))
+    time, trace = value(tab, "time"), lumped.history(x, beta, zeta2, e)
+    time = tab.evaluate(f"stage.first_bounce({time}).time")
+    normal, friction, velocity = (
+        np.interp(time, trace.time, one) for one in (trace.normal, trace.friction, trace.velocity)
+    )
+    shares = {
+        "motion normal to the surface": e**2 * (1 - normal**2),
+        "motion along the surface": (mu * velocity) ** 2 / beta,
+        "held by compression": (e * normal) ** 2,
+        "held in shear": zeta2 * (mu * friction) ** 2,
+        "lost in the material": 1 - e**2,
+    }
+    shares["lost to friction"] = before - sum(shares.values())
+    said = map(str.strip, texts(tab, "#energies tbody th"))
+    said = dict(zip(said, numbers(texts(tab, "#energies tbody td:nth-child(3)")), strict=True))
+    assert said == pytest.approx(
+        {word: 100 * one / before for word, one in shares.items()}, abs=0.06
+    )
 
 
 def test_numbers_and_pictures_are_saved(show):

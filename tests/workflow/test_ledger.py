@@ -4,10 +4,12 @@ That every entry holds is what a run says; that each notices a fault, test_mutat
 refused, tests/refusals. The readings quote numbers, which are found here in other ways.
 """
 
+import functools
+import inspect
 import math
 import re
 from collections import Counter
-from itertools import product
+from itertools import count, product
 
 import numpy as np
 import pytest
@@ -15,13 +17,13 @@ from markupsafe import escape
 
 from planarimpact import continuum, lumped, noncollinear
 from stronge1994 import tables
-from stronge1994.formulas import mathematical
-from stronge1994.ledger import checking, contact, finding, outcome
+from stronge1994.formulas import mathematical, plain
+from stronge1994.ledger import checking, contact, finding, outcome, run
 from stronge1994.ledger.finding import Finding
 from stronge1994.pages import ledger_page
-from stronge1994.printed import dynamics, slip
+from stronge1994.printed import dissipation, dynamics, impact, peak_force, slip
 from tests.workflow.page import flat
-from tests.workflow.project import ROOT, config, ledger
+from tests.workflow.project import config, ledger
 
 ENTRIES = ledger()
 EXECUTED = {name: entry for name, entry in ENTRIES.items() if "check" in entry}
@@ -68,6 +70,73 @@ def rows(first_run):
 def test_an_entry_holds_or_says_why_not(entry, found, why):
     assert finding.judge(found, entry).startswith(why)
     assert bool(finding.judge(found, entry)) == bool(why)
+
+
+# A part of what a formula returns: by the place of the call, the number of calls, and the size.
+HALVES = {
+    "first calls": lambda call, calls, size: slice(size if call < calls // 2 else 0),
+    "last calls": lambda call, calls, size: slice(size if call >= calls // 2 else 0),
+    "first entries": lambda call, calls, size: slice(size // 2),
+    "last entries": lambda call, calls, size: slice(size // 2, None),
+}
+
+
+def wrong(values, part, by=1e3):
+    """Numbers that are wrong in a part; of several each in a way of its own."""
+    if isinstance(values, tuple):
+        parts = [wrong(value, part, (i + 1) * by) for i, value in enumerate(values)]
+        return type(values)(*parts) if hasattr(values, "_fields") else tuple(parts)
+    numbers = np.array(values, float, ndmin=1)
+    numbers[..., part(numbers.shape[-1])] += by
+    return numbers if np.ndim(values) else numbers[0]
+
+
+def found_by(entry, monkeypatch, half, calls, named=""):
+    """What a check finds, by printed formulas that are wrong in one half; and their calls.
+
+    Only those whose names match `named` are wrong, and counted.
+    """
+    done = count()
+
+    def formula(right):
+        @functools.wraps(right)
+        def call(*arguments, **named):
+            part = functools.partial(half, next(done), calls)
+            return wrong(right(*arguments, **named), part)
+
+        return call
+
+    with monkeypatch.context() as patch, np.errstate(all="ignore"):
+        for module in (dissipation, dynamics, impact, peak_force, slip):
+            for name, right in inspect.getmembers(module, inspect.isfunction):
+                if right.__module__ == module.__name__ and re.match(named, name):
+                    patch.setattr(module, name, formula(right))
+        return str(run(entry["check"])), next(done)
+
+
+@pytest.mark.parametrize("name", [n for n, e in EXECUTED.items() if e["kind"] == "equation"])
+def test_a_check_looks_at_both_halves(name, monkeypatch):
+    """A printed formula is noticed that is wrong in one half of its calls, or of each array."""
+    sizes = []
+    right, calls = found_by(
+        EXECUTED[name], monkeypatch, lambda *place: sizes.append(place[-1]) or slice(0), 0
+    )
+    unseen = [
+        which
+        for which, half in HALVES.items()
+        if found_by(EXECUTED[name], monkeypatch, half, calls)[0] == right
+    ]
+    empty = {"first calls": calls == 1, "first entries": max(sizes) == 1}
+    assert unseen == [which for which, is_so in empty.items() if is_so]
+
+
+@pytest.mark.parametrize("name", [name for name in EXECUTED if re.fullmatch(r"eq-\d\d", name)])
+def test_a_check_looks_at_its_own_equation(name, monkeypatch):
+    """One of several that share a check: printed formulas have its number in their names."""
+    own = rf"eq_{int(name[3:])}\D"
+    right, calls = found_by(EXECUTED[name], monkeypatch, lambda *place: slice(0), 0, own)
+    wrong, _ = found_by(EXECUTED[name], monkeypatch, lambda *place: slice(None), 0, own)
+    assert calls and wrong != right
 
 
 def test_every_numbered_equation_has_an_executed_entry():
@@ -161,8 +230,7 @@ def test_a_wrong_claim_in_nature_does_not_hold(name, measured):
 def page_of(rows, folder):
     """The ledger's page of some rows, as a file."""
     page = folder / "ledger.html"
-    template = ROOT / "workflow/report/ledger.html"
-    page.write_text(ledger_page.page(rows, "mu: friction", {}, template), encoding="utf-8")
+    page.write_text(ledger_page.page(rows, "mu: friction", {}), encoding="utf-8")
     return page
 
 
@@ -392,6 +460,35 @@ def test_numbers_that_an_entry_quotes_are_found_in_another_way(name):
     found = compute()
     found = found if np.isscalar(found) else np.array(list(found))
     assert np.all(np.abs(found - quoted) <= within), found
+
+
+def corrected_by(name, **values):
+    """Value of the first formula of a correction, whose letters have these values."""
+    formula = ENTRIES[name]["correction"].split("$")[1].rpartition(" = ")[2]
+    text = plain(f"${formula}$").replace("^2", "**2")
+    return eval(re.sub(r"(?<=[\w)]) (?=[\w(])", " * ", text), {"max": max} | values)
+
+
+def test_closed_formulas_that_the_ledger_prints_as_corrections_are_right():
+    """At restitutions, too, of which the words beside them say nothing."""
+    beta, zeta2 = contact.SPHERE
+    angles = np.linspace(50.0, 80.0, 3001)
+    for e in (0.3, 0.5, 0.8, 1.0):
+        letters = {"e": e, "mu": 0.3, "m2": beta, "m1": 1.0, "zeta": np.sqrt(zeta2)}
+        limit = max(corrected_by("slip-throughout-limit", **letters), zeta2)
+        assert limit == pytest.approx(lumped.slip_throughout_limit(beta, zeta2, e), rel=1e-12)
+        largest = angles[np.argmax(friction_loss(angles, 0.3, e)[0])]
+        angle = np.degrees(np.arctan(corrected_by("largest-dissipation-angle", **letters))) / 2 + 90
+        assert abs(angle - largest) < 0.01
+
+
+def test_entries_stand_on_pages_of_the_paper_and_equations_in_their_order():
+    pages = {
+        n: [int(page) for page in re.findall(r"\d{3}", e["where"])] for n, e in ENTRIES.items()
+    }
+    assert all(found and 435 <= min(found) <= max(found) <= 450 for found in pages.values())
+    numbered = [pages[name][0] for name in sorted(ENTRIES) if re.fullmatch(r"eq-\d\d", name)]
+    assert numbered == sorted(numbered) and len(numbered) > 35
 
 
 def test_a_figure_calls_the_paper_wrong_or_vague_as_the_ledger_does():

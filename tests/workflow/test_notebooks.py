@@ -29,7 +29,7 @@ def code_of(book):
 
 
 def lecture(name):
-    """A lecture as it is kept, and the rows of its table."""
+    """A lecture as it is kept, and its cells with the rows of its table."""
     book = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
     return book, stated_numbers.read(FOLDER / f"{name}.yaml", book.cells)
 
@@ -50,13 +50,13 @@ def run(notebook, folder):
     return {kind: path.read_text(encoding="utf-8") for kind, path in results.items()}
 
 
-def executed(book, rows=(), sliders=False):
-    """Run the cells in this process, sliders to their ends if asked, and compare rows of texts."""
+def executed(texts, sliders=False):
+    """Run cells in this process, sliders to their ends if asked, and compare rows of texts."""
     matplotlib.use("Agg")
     names = {}
     with matplotlib.rc_context():
         try:
-            for cell, of_text in stated_numbers.with_checks(book.cells, rows):
+            for cell, of_text in texts:
                 if cell.cell_type == "code":
                     exec(re.sub(r"^ +%pip .*", "    raise", cell.source, flags=re.M), names)
                     names |= {"play": at_both_ends} if sliders and "play" in names else {}
@@ -78,7 +78,7 @@ def at_both_ends(show, **ranges):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_wrong_solver_makes_a_stated_number_wrong(name, monkeypatch):
-    book, rows = lecture(name)
+    _, texts = lecture(name)
     solve = stick_slip.solve
 
     def too_soft(impacts, *trace):
@@ -87,7 +87,18 @@ def test_a_wrong_solver_makes_a_stated_number_wrong(name, monkeypatch):
     monkeypatch.setattr(stick_slip, "solve", too_soft)
     monkeypatch.chdir(FOLDER)
     with pytest.raises(stated_numbers.WrongNumberError):
-        executed(book, rows)
+        executed(texts)
+
+
+SAYS = "{cell: said, says: 'is 3, not', "
+
+
+def test_no_notebook_and_no_page_has_the_checks(tmp_path):
+    made = run(
+        written(tmp_path / "good.ipynb", "three = 3", table=f"{SAYS}gives: three}}"), tmp_path
+    )
+    assert "three = 3" in re.sub("<.*?>", "", made["page"])
+    assert not [kind for kind, text in made.items() if "compare" in text or "stated_num" in text]
 
 
 @pytest.mark.parametrize(
@@ -100,16 +111,20 @@ def test_a_wrong_solver_makes_a_stated_number_wrong(name, monkeypatch):
     ],
 )
 def test_a_text_that_states_what_its_cells_do_not_give_fails_the_run(row, words, tmp_path):
-    """In one line: the lecture, the cell, both numbers. No notebook and no page has the checks."""
-    says = "{cell: said, says: 'is 3, not', "
-    good = written(tmp_path / "good.ipynb", "three = 3", table=f"{says}gives: three}}")
-    made = run(good, tmp_path)
-    assert "three = 3" in re.sub("<.*?>", "", made["page"])
-    assert not [kind for kind, text in made.items() if "compare" in text or "stated_num" in text]
-    bad = written(tmp_path / "bad.ipynb", "three = 3", table=says + row)
+    """In one line: the lecture, the cell, both numbers."""
+    bad = written(tmp_path / "bad.ipynb", "three = 3", table=SAYS + row)
     with pytest.raises(lectures.NotebookError, match=rf"^bad\.ipynb, {words}") as refusal:
         run(bad, tmp_path)
     assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_throw_to_play_is_that_of_its_text(name):
+    """Its table quotes each address whole, so a run compares all numbers there."""
+    for cell, rows in lecture(name)[1]:
+        quoted = " ".join(row["says"] for row in rows if "gives" in row)
+        for address in re.findall(r"explorer\.html\S*?(#[^)]*)", cell.source):
+            assert address in quoted, cell.id
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -131,9 +146,11 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_cells_need_the_package_alone_and_check_nothing(name):
-    book, rows = lecture(name)
+    book, texts = lecture(name)
     source = "\n".join(cell.source for cell in code_of(book))
-    assert rows and not re.search(r"stronge1994|^ *assert ", source, flags=re.M)
+    assert any(rows for _, rows in texts) and not re.search(
+        r"stronge1994|^ *assert ", source, flags=re.M
+    )
     assert not [cell.id for cell in code_of(book) if cell.outputs or cell.execution_count]
 
 
@@ -183,7 +200,7 @@ def test_a_student_may_edit_numbers_and_needs_no_file(name, edit, of_student, fi
     book = of_student(name, first_run[0] / "results")
     for cell in code_of(book):
         cell.source = re.sub(*EDITS[edit], cell.source)
-    executed(book, sliders=edit == "as it is")
+    executed([(cell, []) for cell in book.cells], sliders=edit == "as it is")
 
 
 @pytest.mark.parametrize("name", NAMES)

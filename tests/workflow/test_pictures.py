@@ -1,5 +1,6 @@
 """Pictures follow the tables of a run, and what is written in them can be read."""
 
+import functools
 import importlib
 import re
 from pathlib import Path
@@ -51,6 +52,18 @@ def given(first_run):
     return of
 
 
+@pytest.fixture(scope="module")
+def drawn(given):
+    """Table and picture of a figure as the run has them. Do not change them."""
+
+    @functools.cache
+    def of(figure):
+        curves, draw, _ = given(figure)
+        return curves, draw(curves)
+
+    return of
+
+
 def curves_of(line, curves):
     """Names of curves of which a line shows one column against another, where it has no gap."""
     x, y = line.get_xydata().T
@@ -65,11 +78,11 @@ def curves_of(line, curves):
 
 
 @pytest.mark.parametrize("figure", figures.stated())
-def test_a_line_is_a_curve_of_the_table_and_each_curve_is_drawn(given, figure):
+def test_a_line_is_a_curve_of_the_table_and_each_curve_is_drawn(drawn, figure):
     """Column against column."""
-    curves, draw, _ = given(figure)
+    curves, picture = drawn(figure)
     seen = set()
-    for line in [line for axes in draw(curves).axes for line in axes.lines]:
+    for line in [line for axes in picture.axes for line in axes.lines]:
         label, found = line.get_label(), list(curves_of(line, curves))
         assert found or label[0] == "_" or len(line.get_xdata()) < 30 or "F_1" in label, label
         seen |= set(found)
@@ -102,7 +115,7 @@ def test_a_published_series_is_drawn_with_the_axes_of_a_panel(given, figure):
     curves, draw, points = given(figure)
     x, y = np.array([2.0, 6.0]), np.array([0.5, 1.0])
     for axes, count in ((AXES[figure], 1), (("tilt [deg]", AXES[figure][1]), 0)):
-        series = house_style.Scatter("mine/spheres", True, x, y, (x / 9, y / 9), axes, None, {})
+        series = house_style.Scatter(True, x, y, (x / 9, y / 9), axes, None, {})
         points["mine/spheres"] = series
         picture = draw(curves)
         (texts,) = (legend.get_texts() for legend in picture.legends)
@@ -152,12 +165,15 @@ def shown(figure):
 LOOKED_AT = Path(__file__).with_name("pictures.yaml")
 
 
+@pytest.fixture(scope="module")
+def stored():
+    return yaml.safe_load(LOOKED_AT.read_text(encoding="utf-8")) or {}
+
+
 @pytest.mark.parametrize("figure", [figure for figure in figures.stated() if figure != "trade"])
-def test_a_picture_is_the_one_that_was_looked_at(given, figure):
+def test_a_picture_is_the_one_that_was_looked_at(drawn, stored, figure):
     """After a change that is meant, delete its entry, run this, and look at the picture."""
-    curves, draw, _ = given(figure)
-    stored = yaml.safe_load(LOOKED_AT.read_text(encoding="utf-8")) or {}
-    found = [[words, *numbers] for words, numbers in shown(draw(curves))]
+    found = [[words, *numbers] for words, numbers in shown(drawn(figure)[1])]
     if figure not in stored:
         entry = yaml.safe_dump({figure: found}, default_flow_style=None, width=1000)
         LOOKED_AT.write_text(LOOKED_AT.read_text(encoding="utf-8") + entry, encoding="utf-8")
@@ -190,6 +206,17 @@ def test_other_codes_stand_at_their_ratio_times_the_time_of_our_table(given, fir
     lines = [line for line in axes.lines if line.get_label() in ("LAMMPS", "pooltool")]
     wanted = np.transpose([times, rows["rms_velocity [mu v2(0)]"]])
     assert np.vstack([line.get_xydata() for line in lines]) == pytest.approx(wanted)
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_times_against_the_batch_are_those_of_the_finest_setting(given, order):
+    curves, draw, _ = given("trade")
+    (axes,) = [axes for axes in draw(curves[::order]).axes if axes.get_title().startswith("(d)")]
+    rows = curves[curves["e"] == 1]
+    fineness = rows["steps"].fillna(1 / rows["tolerance"]).fillna(0)
+    finest = rows.loc[fineness.groupby(rows["model"]).idxmax()].filter(regex="^time")
+    wanted = {tuple(row.dropna()) for _, row in finest.iterrows()}
+    assert {tuple(line.get_ydata()) for line in axes.lines} <= wanted and len(axes.lines) == 5
 
 
 # Parts that the drawings share

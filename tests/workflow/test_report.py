@@ -2,6 +2,7 @@
 
 import base64
 import html
+import json
 import re
 from collections import Counter
 
@@ -20,9 +21,11 @@ from stronge1994.names import MODELS
 from stronge1994.pages import note, which_model
 from stronge1994.pages import report as write_report
 from stronge1994.verdict_table import Group, Verdict, Why
+from stronge1994.words import of_identifier
+from stronge1994.words import source as name_of_source
 from tests.unit.test_figure_table import SIZES
 from tests.workflow.page import Page, flat
-from tests.workflow.project import ROOT, config
+from tests.workflow.project import config
 
 CONFIG = config()
 
@@ -67,13 +70,29 @@ def test_each_is_one_file_that_needs_nothing_else(pages):
 
 
 def test_the_first_words_say_how_it_went_and_what_was_found(pages, rows_of):
-    """Each error that changes a result is named."""
+    """Each error that changes a result is named, and no other."""
     head = pages("report").split('<h2 id="verdicts">')[0]
     first = Page(head).text
     assert first.index("PASSED") < first.rindex("What we found")
     assert "FAILED" not in pages("report")
     grave = [row["entry"] for row in rows_of("ledger") if row["grade"] == "changes a result"]
-    assert grave and all(f'<a href="ledger.html#{entry}">' in head for entry in grave)
+    told = head.partition("Errors of the paper that change a result:")[2].split("</p>")[0]
+    assert grave and re.findall(r'"ledger.html#([^"]+)"', told) == grave
+
+
+def test_sigmas_in_the_reasons_of_comparisons_are_those_of_the_run(first_run):
+    """How many sigmas a point is off, as the figure of Kharaz' points says it."""
+    residuals = pd.read_csv(first_run[0] / "results/residuals/fig5.csv")
+    said = [
+        (name, *map(float, found))
+        for name, entry in CONFIG["comparisons"].items()
+        for found in re.findall(r"at ([\d.]+)° (?:is )?([\d.]+) sigmas", entry["reason"])
+    ]
+    assert len(said) >= 6
+    for name, angle, sigmas in said:
+        own = residuals[residuals["comparison"] == name]
+        nearest = own.iloc[np.abs(own["at"] - angle).argmin()]
+        assert abs(nearest["distance [sigma]"]) == pytest.approx(sigmas, abs=0.5), (name, nearest)
 
 
 SAID = {"origin of sigma": "sigma_origin", "where": "where", "tolerance": "tolerance_origin"}
@@ -102,8 +121,36 @@ def test_every_verdict_figure_and_source_is_there(pages, rows_of, inventory):
                     assert flat(mathematical(entry.get(key, ""))) in cells.get(label, "")
                 tolerance = entry.get("tolerance") and flat(number(entry["tolerance"]))
                 assert cells.get("tolerance", "").startswith(tolerance or "")
+                alone = re.findall("only for <code>(.*?)</code>", row, flags=re.S)
+                settings = [entry["settings"]] if entry.get("settings") else []
+                assert [yaml.safe_load(html.unescape(one)) for one in alone] == settings
     told = "angle: 0.22°; centre restitution: 0.0016", "0.0127 m 3×10 −5 stated", "nobody yet: th"
     assert all(words in stated_in for words in (*told, f"numpy {np.__version__}"))
+
+
+def test_each_source_and_version_stands_with_its_own_name(first_run, pages, inventory):
+    text = pages("sources")
+    sections = re.split("<section>", text)[1:]
+    shown = [re.search(r'<h3 id="source-(\w+)">(.*?)</h3>', section) for section in sections]
+    assert sorted(heading[1] for heading in shown) == sorted(inventory)
+    for section, heading in zip(sections, shown, strict=True):
+        name, stated = heading[1], inventory[heading[1]]
+        assert heading[2] == name_of_source(name).replace("&", "&amp;")
+        assert f"<code>data/{name}</code>" in section
+        assert flat(html.escape(stated["citation"])) in flat(section)
+        doi = [f"https://doi.org/{stated['doi']}"] if stated.get("doi") else []
+        assert re.findall(r'href="(https:.*?)"', section) == doi
+        table = section.partition("<summary>Parameters of ")[2].partition("</details>")[0]
+        told = [flat(row) for row in re.findall(r"<tr><td>(.*?)</tr>", table, flags=re.S)]
+        parameters = stated.get("parameters") or {}
+        for row, (key, entry) in zip(told, parameters.items(), strict=True):
+            origin = flat(mathematical(entry["origin"]))
+            assert row.startswith(flat(mathematical(of_identifier(key)))), row
+            assert row.endswith(origin) and flat(mathematical(f"{entry['value']:g}")) in row
+    said = text[text.index("<dt>Versions</dt>") :].split("</dd>")[0]
+    made_with = json.loads((first_run[0] / "results/versions.json").read_text(encoding="utf-8"))
+    assert flat(said) == "Versions" + ",".join(f"{k}{v}" for k, v in made_with.items())
+    assert made_with["numpy"] == np.__version__ and made_with["pandas"] == pd.__version__
 
 
 @pytest.mark.parametrize("name", CONFIG["figures"])
@@ -168,7 +215,7 @@ def test_numbers_of_the_note_are_those_that_the_words_behind_them_mean(numbers):
         name: 4.0 for name in numbers if name.endswith(("failed", "spreads", "published.agrees"))
     }
     names, marks = list(numbers), {name: 3000.0 + i for i, name in enumerate(numbers)}
-    page = note.page(marks | spelt, [], shown, ROOT / "workflow/report/note.html")
+    page = note.page(marks | spelt, [], shown)
     marked = re.sub(r"\b3(\d{3})(\.0+)?\b", lambda m: f"«{names[int(m[1])]}»", Page(page).text)
     row_of_table = "pairs.*.chi2» «pairs.*.least» to «pairs.*.most» 4 «pairs.*.without polyurethane"
     row_of_table += ".chi2» «rubber.*.distance» «rubber.*.distance.small» «yielding.*.rms»"
@@ -340,7 +387,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "table": figure_table.of_run(VERDICTS, {"fig6": "rebound"}),
         "faults": ["FAILS: fig6-far: max 9"],
     }
-    page = write_report.page(values, ROOT / "workflow/report/report.html")
+    page = write_report.page(values)
     text = Page(page).text
     assert "1 of 2 verdicts on the paper no longer hold: Eq. 25 . Today, commit abc" in text
     assert "FAILED Reasons: 1, named" in text and "Fig. 6, far FAILS: max 9" in text

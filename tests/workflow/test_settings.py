@@ -25,7 +25,6 @@ QUICK = {
     "loss_tolerance": 0.01,
     "tolerances": [0.01],
     "steps": [16, 32],
-    "circles": [4, 8],
     "batches": [1, 100],
     "budget": 0.05,
 }

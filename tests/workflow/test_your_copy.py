@@ -106,6 +106,27 @@ def opened(tab, first_run, tmp_path):
     assert tab.problems == []
 
 
+# Sigmas of readings on a map of 2 and 3 units a pixel, whose marks are off by half a pixel.
+SIGMAS = """readings.sigmas({{ scale: () => [2, 3], sigma: () => 0.5,
+  to_axes: ([u, v]) => [2 * u, 3 * v] }},
+  [[[0, 0], [40, 0]], [{second}]], [{width}], 800, {line})"""
+
+
+@pytest.mark.parametrize(
+    ("second", "width", "line", "variance"),
+    [
+        ("[1, 1], [41, 1]", 0, "false", 1 / 2 + 1 / 4),  # two readings, and the marks
+        ("[1, 1], [39, 1]", 4, "true", 1 / 2 + 1 / 4 + 4),  # half the width of the line besides
+    ],
+)
+def test_a_sigma_adds_up_what_its_origin_names(second, width, line, variance, tab, first_run):
+    tab.open((first_run[0] / "figures/your_copy.html").as_uri())
+    found = tab.evaluate(SIGMAS.format(second=second, width=width, line=line))
+    assert found["x"] / 2 == pytest.approx(np.sqrt(variance)) == pytest.approx(found["y"] / 3)
+    assert ("half the width of the line" in found["origin"]) == bool(width)
+    assert found["origin"].endswith("; residual of the marks")
+
+
 def rms(errors):
     return np.sqrt(np.mean(np.square(errors), axis=0))
 
@@ -175,6 +196,11 @@ def test_a_line_is_followed_and_judged(wrong, wanted, opened, first_run, tmp_pat
     path = saved(reader, LOSSY, tmp_path)
     read = pd.read_csv(path, comment="#").to_numpy()
     assert np.abs(distances.curve_residuals(read.T, tuple(line.T), (8.0, 6.0))[0]).max() < 0.003
+    # Sigma is half the width of the line, and what marks and a second reading add to its square.
+    half = prints.INK["linewidth"] / 2 / 72 * 300  # pixels
+    unit = [np.linalg.norm(reader.pixel(*end) - reader.pixel(0, 0)) for end in ((1, 0), (0, 1))]
+    sigma = np.array(re.findall(r"# sigma_[xy]: (.*)", path.read_text()), float) * unit
+    assert np.all((sigma > 0.8 * half) & (sigma < 1.6 * half))
     assert verdict(path, first_run) == wanted
 
 
@@ -242,6 +268,18 @@ def test_curves_are_hidden_marks_moved_and_the_picture_saved_on_a_phone_too(open
     assert "PDF" in reader.text("#refused")
 
 
+def test_a_new_picture_begins_empty_in_every_panel(opened, tmp_path):
+    reader = opened("fig5", [], marks=MARKS[:3])
+    reader.page.select_option("#panel", "fig6")
+    reader.click(MARKS[:1])
+    assert "Set 2 more" in reader.text("#fit")
+    prints.scan(tmp_path / "other.jpg", LIMITS["fig6"], [])
+    reader.page.set_input_files("#file", tmp_path / "other.jpg")
+    reader.page.locator("#fit", has_text="Set 3 more").wait_for()
+    reader.page.select_option("#panel", "fig5")
+    assert "Set 3 more" in reader.text("#fit")
+
+
 def test_a_page_whose_distances_are_wrong_says_so(tab, first_run, tmp_path):
     text = (first_run[0] / "figures/your_copy.html").read_text(encoding="utf-8")
     for changed, wrong in ((text, 0), (re.sub(r'"near": \d', '"near": 7', text, count=1), 1)):
@@ -249,3 +287,22 @@ def test_a_page_whose_distances_are_wrong_says_so(tab, first_run, tmp_path):
         tab.open((tmp_path / "page.html").as_uri())
         said = tab.page.text_content("#refused")
         assert ("Do not trust" in said and f" {wrong} of " in said) if wrong else said == ""
+
+
+def test_a_curve_is_the_one_that_its_name_says_and_with_which_its_series_is_compared():
+    """Of all panels: the parameters in the words, and the curve and column of the comparison."""
+    stated = config()["comparisons"].values()
+    compared = {one.get("reference"): one.get("curve") for one in stated}
+    panels = reference_data.load_yaml(ROOT / "workflow/your_copy/panels.yaml")["panels"].values()
+    for panel, curve in [(one, curve) for one in panels for curve in one["curves"]]:
+        ((key, values),) = curve.get("each", {"": [""]}).items()
+        for value in values:
+            chosen = curve["select"] | ({key: value} if key else {})
+            name = curve["name"].replace("{}", f"{value}")
+            said = re.findall(r"(e|µ) = ([\d.]+)", name)
+            assert {(at.replace("µ", "mu"), float(one)) for at, one in said} <= chosen.items(), name
+            if full := curve.get("series", "").replace("{}", f"{value}"):
+                source, series = full.split("/")
+                awaited = reference_data.Series(**sources()[source]["series"][series])
+                assert chosen.items() <= compared[full].items(), name
+                assert curve.get("y", panel["y"]) == awaited.ordinates[0].name, name

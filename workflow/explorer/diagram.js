@@ -61,7 +61,7 @@ const diagram = (() => {
   }
 
   // Springs of the row where they touch: their feet stick or slip, and they lean by their deflection.
-  function show_row({ contact, e, sign }, { density, slips, limit, radius }, plate, touching) {
+  function show_row({ contact, e, sign }, { density, slips, radius }, plate, touching) {
     const motion = continuum.normal(e, contact.style);
     const unit = motion.radius ** 2 * motion.largest_share;
     let [sticking, slipping, free, bodies] = ["", "", "", ""];

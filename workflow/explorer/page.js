@@ -698,5 +698,5 @@ const page = (() => {
     changed();
   }
 
-  return { go, address, impact: () => impact, flights: () => flights };
+  return { go, impact: () => impact };
 })();

@@ -121,5 +121,5 @@ const patch = (() => {
     return sticks ? "all of it sticks" : "all of it slips";
   }
 
-  return { show, words, RADIUS };
+  return { show, words };
 })();

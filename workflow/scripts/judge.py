@@ -4,7 +4,7 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import judging, one_thread  # noqa: F401  (one thread: before numpy)
+from stronge1994 import judging
 
 rows = judging.compare(
     snakemake.wildcards.judged, snakemake.input.table, **snakemake.params.settings

@@ -4,7 +4,6 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import one_thread  # noqa: F401  (one thread: before numpy)
 from stronge1994.pages import lectures
 
 given = snakemake.input

@@ -4,9 +4,6 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import (
-    one_thread,  # noqa: F401  (one thread: before numpy)
-    solving,
-)
+from stronge1994 import solving
 
 solving.solve(snakemake.wildcards.figure, **snakemake.params.settings, output=snakemake.output[0])

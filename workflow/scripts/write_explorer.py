@@ -12,5 +12,5 @@ from stronge1994.pages import templates
 
 text = explorer.page(snakemake.params.settings, snakemake.input.sources, answers(explorer.LIMITS))
 Path(snakemake.output.page).write_text(text, encoding="utf-8")
-start = templates.environment(templates.SHARED).get_template("index.html")
+start = templates.environment().get_template("index.html")
 Path(snakemake.output.start).write_text(start.render(interface=""), encoding="utf-8")

@@ -67,11 +67,13 @@ def viscous_restitution(
     too_long = np.flatnonzero(tau > longest * (1 + ROUNDING))
     if too_long.size:
         said = (
-            "relaxation_time = {:g}: allowed are numbers up to {:.4g} here, where restitution is "
+            "relaxation_time = {:g}: allowed are numbers up to {} here, where restitution is "
             f"{LEAST_RESTITUTION}"
         )
         given, most = np.ravel(tau), np.ravel(longest)
-        raise OutOfRange({i: said.format(given[i], most[i]) for i in too_long.tolist()})
+        raise OutOfRange(
+            {i: said.format(given[i], checks.limit(most[i])) for i in too_long.tolist()}
+        )
     return np.maximum(kelvin_voigt.restitution(tau / unit), LEAST_RESTITUTION)[()]
 
 

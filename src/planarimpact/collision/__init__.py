@@ -42,6 +42,8 @@ from planarimpact.common.checks import InputError
 from planarimpact.common.results import Regime
 from planarimpact.continuum import Unsolved
 from planarimpact.normal_impact import LOSSES as LOSSES
+from planarimpact.normal_impact import PLASTIC as PLASTIC
+from planarimpact.normal_impact import VISCOUS as VISCOUS
 
 __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
 
@@ -89,7 +91,7 @@ class Collision:
     def loss(self) -> NDArray[np.str_]:
         """What took the energy: viscous or plastic, or none where e = 1 or without an impact."""
         lossy = self.restitution < 1
-        return np.where(lossy, np.where(self.plastic, "plastic", "viscous"), "none")
+        return np.where(lossy, np.where(self.plastic, PLASTIC, VISCOUS), "none")
 
     @cached_property
     def model_form(self) -> Array:

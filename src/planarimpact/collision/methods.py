@@ -16,6 +16,7 @@ from planarimpact.common import sliding
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import ConvergenceError
 from planarimpact.common.results import Rebound, Regime
+from planarimpact.normal_impact import PLASTIC, VISCOUS
 
 # Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
 # that is solved has no larger error in v1(0) either, so that friction of any size has an effect.
@@ -42,19 +43,22 @@ class Method(NamedTuple):
         return self.model.partition(".")[2] or None
 
 
-CONTINUUM_WAYS = (
+FORMULAS = (
+    Method("slip throughout", "formula", "they slide from first to last, by Coulomb's law"),
+    Method("head-on", "formula", "they have no tangential motion"),
+)
+CONTINUUM_WAYS = TABLED, TOO_COARSE, NOT_COVERED = (
     ("table", "the table of spheres covers them, and its error is below the tolerance"),
     ("solved", "the table of spheres covers them, but its error is above the tolerance"),
     ("solved", "the table of spheres does not cover them"),
 )
-CONTINUA = ("continuum", *models.losses("continuum").values())
-TABLED, TOO_COARSE, NOT_COVERED = range(len(CONTINUUM_WAYS))
+CONTINUA = {"": "continuum", **models.losses("continuum")}  # by loss
 METHODS = (
-    Method("slip throughout", "formula", "they slide from first to last, by Coulomb's law"),
-    Method("head-on", "formula", "they have no tangential motion"),
-    *(Method(model, way, why) for way, why in CONTINUUM_WAYS for model in CONTINUA),
+    *FORMULAS,
+    *(Method(model, *way) for way in CONTINUUM_WAYS for model in CONTINUA.values()),
 )
-SLIDING, HEAD_ON, FIRST_OF_CONTINUA = 0, 1, 2
+SLIDING, HEAD_ON = map(METHODS.index, FORMULAS)
+IS_CONTINUUM = np.array([method not in FORMULAS for method in METHODS])
 
 
 def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
@@ -70,14 +74,24 @@ def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     rows = np.flatnonzero(~slides & ~head_on)
     groups = impacts.groups_of(rows)
     elastic = groups[2] == 1
-    kind = np.where(elastic, 0, np.where(impacts.plastic[rows], 2, 1))  # in `CONTINUA`
+    plastic = impacts.plastic[rows] & ~elastic
     x = impacts.incidence_of(rows)
-    of_table = table_error(spheres.error_bound(*groups, kind == 2), groups[0], x)
-    way = np.where(of_table <= tolerance, TABLED, TOO_COARSE)
-    way = np.where(np.isfinite(of_table), way, NOT_COVERED)
-    place[rows] = FIRST_OF_CONTINUA + len(CONTINUA) * way + kind
-    error[rows] = np.where(way == TABLED, of_table, _tolerance(x, tolerance))
+    of_table = table_error(spheres.error_bound(*groups, plastic), groups[0], x)
+    tabled, covered = of_table <= tolerance, np.isfinite(of_table)
+    for way, which in (
+        (TABLED, tabled),
+        (TOO_COARSE, covered & ~tabled),
+        (NOT_COVERED, ~covered),
+    ):
+        lossy = np.where(plastic, _place(PLASTIC, way), _place(VISCOUS, way))
+        place[rows[which]] = np.where(elastic, _place("", way), lossy)[which]
+    error[rows] = np.where(tabled, of_table, _tolerance(x, tolerance))
     return place, error * impacts.unit
+
+
+def _place(loss: str, way: tuple[str, str]) -> int:
+    """The place in `METHODS` of the continuum with a loss, or elastic, in one of its ways."""
+    return METHODS.index(Method(CONTINUA[loss], *way))
 
 
 def _tolerance(x: Array, tolerance: float) -> Array:
@@ -112,7 +126,7 @@ def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
     velocity = impacts.v1 + change
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
     result = Answers(place, change, velocity, slides.astype(float), regime, error, {})
-    for number in np.unique(place[place >= FIRST_OF_CONTINUA]).tolist():
+    for number in np.unique(place[IS_CONTINUUM[place]]).tolist():
         _add_continuum(result, impacts, number, tolerance, peaks)
     return result
 
@@ -128,7 +142,7 @@ def _add_continuum(
         result.unsolved.update({int(rows[i]): message for i, message in messages.items()})
         rows = rows[with_answer]
     else:  # at e = 1 the table has the same answer for both losses
-        loss = method.loss or continuum.VISCOUS
+        loss = method.loss or VISCOUS
         rebound = spheres.rebound(x, *groups, loss=loss, forces=peaks)
     result.velocity[rows] = rebound.velocity * impacts.unit[rows]
     result.change[rows] = result.velocity[rows] - impacts.v1[rows]

@@ -4,6 +4,7 @@ import math
 import re
 import reprlib
 from collections.abc import Collection, Iterable, Sequence
+from decimal import ROUND_DOWN, Context
 from functools import partial
 from typing import Any
 
@@ -31,6 +32,7 @@ default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid
 NO_LOSS = "", "None", "nan", "<NA>", "NaT"
 _NUMBERS = int, float, np.integer, np.floating
 
+_DOWN = Context(prec=4, rounding=ROUND_DOWN)
 _BRIEF = reprlib.Repr()
 _BRIEF.maxlevel, _BRIEF.maxlist, _BRIEF.maxdict, _BRIEF.maxtuple = 1, 4, 4, 4
 _BRIEF.maxstring = _BRIEF.maxother = 60
@@ -77,8 +79,8 @@ def checked(
     """Return real numbers as float64 of the same shape, or refuse them and say what is allowed.
 
     The bounds are inclusive, `low` exclusive with `open_low`; an infinity passes with `infinite`
-    only, NaN with `missing` only. Booleans, strings, bytes, complex numbers and masked entries are
-    refused.
+    only, NaN with `missing` only. Booleans, strings, complex numbers and masked entries are
+    refused; all else is what NumPy makes of it.
 
     Examples
     --------
@@ -104,7 +106,7 @@ def checked(
         ) from None
     except ValueError:
         raise InputError(f"{name} = {brief(value)}: not a regular array of numbers") from None
-    if array.dtype.kind not in "iuf" or _has_booleans_or_bytes(value):
+    if array.dtype.kind not in "iuf" or _has_booleans(value):
         raise InputError(f"{name} = {brief(value)}: allowed are {allowed}, as real numbers")
     with np.errstate(invalid="ignore", over="ignore", under="ignore"):
         numbers = array.astype(np.float64)
@@ -133,15 +135,24 @@ def _is_masked(value: object) -> bool:
     return isinstance(value, np.ma.MaskedArray) and bool(np.ma.is_masked(value))
 
 
-def _has_booleans_or_bytes(value: object) -> bool:
+def _has_booleans(value: object) -> bool:
     """Whether there are any, in lists too: NumPy's conversion makes numbers of them."""
-    if isinstance(value, (bytearray, memoryview)):
-        return True
     if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
         types = set(map(type, value))  # the only pass over all entries of a long list of numbers
         suspect = {kind for kind in types if kind is bool or not issubclass(kind, _NUMBERS)}
-        return bool(suspect) and any(_has_booleans_or_bytes(x) for x in value if type(x) in suspect)
+        return bool(suspect) and any(_has_booleans(x) for x in value if type(x) in suspect)
     return isinstance(value, bool) or getattr(getattr(value, "dtype", None), "kind", "") == "b"
+
+
+def limit(most: float) -> str:
+    """A largest number with four digits, rounded down: whoever types it keeps within the limit.
+
+    Examples
+    --------
+    >>> limit(2 / 3), limit(123456.0)
+    ('0.6666', '123400')
+    """
+    return f"{float(_DOWN.create_decimal_from_float(most)):g}"
 
 
 finite = partial(checked, allowed="finite numbers")
@@ -288,7 +299,7 @@ def number(
 
 
 def count(name: str, value: int, least: int, most: int = MOST) -> int:
-    """Check a number of steps, circles or samples: an integer from `least` to `most`.
+    """Check a number of steps or samples: an integer from `least` to `most`.
 
     Examples
     --------

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers
 
 
 class Regime(IntEnum):
@@ -52,6 +52,24 @@ class Regime(IntEnum):
         ['STICK_SLIP', 'SLIP_THROUGHOUT']
         """
         return np.array(list(cls.__members__))[codes]
+
+    @classmethod
+    def of_phases(
+        cls, sticks: Integers, starts_in_slip: Booleans, ends_in_slip: bool | Booleans
+    ) -> Integers:
+        """Codes by the number of phases of stick, and by whether the first and last phase slip.
+
+        Examples
+        --------
+        >>> sticks, starts, ends = np.array([0, 1, 1, 2]), np.array([True, False, True, True]), True
+        >>> Regime.names(Regime.of_phases(sticks, starts, ends)).tolist()
+        ['SLIP_THROUGHOUT', 'STICK_SLIP', 'SLIP_STICK_SLIP', 'MULTIPLE']
+        """
+        after_stick = np.where(ends_in_slip, cls.STICK_SLIP, cls.STICK)
+        after_slip = np.where(ends_in_slip, cls.SLIP_STICK_SLIP, cls.SLIP_STICK)
+        once = np.where(starts_in_slip, after_slip, after_stick)
+        once_or_more = np.where(sticks > 1, cls.MULTIPLE, once)
+        return np.where(sticks == 0, cls.SLIP_THROUGHOUT, once_or_more)
 
 
 class Rebound(NamedTuple):

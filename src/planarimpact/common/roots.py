@@ -1,8 +1,8 @@
-"""The one finder of events: the place where a function passes from positive to negative.
+"""The finder of events in a bracket: where a function passes from positive to negative.
 
 Whoever calls it knows a bracket in which there is one such place, and derives that where the event
 belongs. The search keeps the bracket, so it ends. It steps by as many derivatives as the function
-returns, so it is fast.
+returns, so it is fast. Where no bracket is known, `noncollinear.stick_end` has a search of its own.
 """
 
 from collections.abc import Callable

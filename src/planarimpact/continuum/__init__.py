@@ -84,8 +84,7 @@ def rebound(
     loss : str, optional
         What takes the energy where e < 1. "viscous": Kelvin-Voigt spheres with one relaxation time
         in shear and compression. "plastic": Thornton's elastic-plastic sphere, in which shear flows
-        while metal yields. "plastic-elastic-shear": the same without that flow, for comparison
-        alone: below e = 0.65 it is off by up to 0.8 mu v2(0).
+        while metal yields.
     tolerance : array_like, optional
         Largest error allowed in velocity (mu v2(0)) and peak friction (mu F2max of this impact), by
         the solver's own estimate; above 0. It broadcasts with the groups. By default 1e-6, with a

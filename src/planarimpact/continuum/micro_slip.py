@@ -155,7 +155,7 @@ def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
     Notes
     -----
     Exact for a path that is straight, in r^2 and displacement, between its points. For a contact
-    pressed down and then pushed sideways it is the closed form of `cattaneo_mindlin`.
+    pressed down and then pushed sideways it is the closed form of Cattaneo and Mindlin.
 
     Examples
     --------

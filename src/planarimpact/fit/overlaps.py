@@ -89,7 +89,7 @@ def overlap(
     fastest = (OVERLAPS[-1] / at_one) ** 1.25
     if v > fastest * (1 + 1e-9):  # rounding
         raise checks.InputError(
-            f"speed = {checks.brief(speed)}: allowed are speeds up to {fastest * (1 - 5e-4):.4g} "
+            f"speed = {checks.brief(speed)}: allowed are speeds up to {checks.limit(fastest)} "
             f"m/s, where these spheres overlap by {OVERLAPS[-1]:g} of their radius; Hertz' law is "
             "for small contacts, and more was not measured"
         )

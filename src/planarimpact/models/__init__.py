@@ -24,7 +24,6 @@ from planarimpact import continuum, lumped, rigid, spheres
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.common.results import Rebound
-from planarimpact.continuum import annuli
 from planarimpact.models import laws, timestep
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.
@@ -45,8 +44,8 @@ class Model(NamedTuple):
     settings : dict
         Its own settings and their defaults. Its accuracy and cost depend on them.
     cost : str
-        Class of cost: "formula", "table", "phases" (a few phases in closed form), "steps", "steps
-        and springs", or "steps and circles". The last three grow with the settings.
+        Class of cost: "formula", "table", "phases" (a few phases in closed form), "steps" or
+        "steps and springs". The last two grow with the settings.
     restitution : (float, float)
         Range of restitution that it admits.
     valid : str
@@ -319,7 +318,7 @@ def _tabled_continuum(loss: str) -> Model:
         restitution=(spheres.LEAST_RESTITUTION, 1.0),
         valid=f"continuum.{loss} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, and "
         f"m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
-        source="solved by this package, planarimpact.spheres.making",
+        source="solved by this package, planarimpact.continuum",
         loss=loss,
     )
 
@@ -430,15 +429,6 @@ MODELS = {
             "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
         ),
         *map(_tabled_continuum, continuum.LOSSES),
-        Model(
-            "annuli",
-            annuli.rebound,
-            {"circles": 32, "steps": 512},
-            "steps and circles",
-            _ELASTIC,
-            "elastic spheres with micro-slip by the scheme of 1976: a check of the continuum",
-            "N. Maw et al., Wear 38 (1976) 101-114",
-        ),
     )
 }
 

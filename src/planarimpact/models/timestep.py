@@ -67,7 +67,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common import checks
-from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Integers, Numbers
 from planarimpact.common.results import Rebound, Regime
 from planarimpact.normal_impact import hertz
 
@@ -429,13 +429,5 @@ def _impacts(
     impulse = np.where(slides, impulse, x / beta - final / beta)
     largest_force, _, _ = _spring(law, 1.0)
     peak = np.maximum(highest, -lowest) * start_share / largest_force
-    return final, impulse, np.minimum(peak, 1.0), _regime(sticks, starts_in_slip, slips)
-
-
-def _regime(sticks: Integers, starts_in_slip: Booleans, ends_in_slip: Booleans) -> Integers:
-    """Regime by the number of phases of stick and by the first and the last step."""
-    after_stick = np.where(ends_in_slip, Regime.STICK_SLIP, Regime.STICK)
-    after_slip = np.where(ends_in_slip, Regime.SLIP_STICK_SLIP, Regime.SLIP_STICK)
-    once = np.where(starts_in_slip, after_slip, after_stick)
-    once_or_more = np.where(sticks > 1, Regime.MULTIPLE, once)
-    return np.where(sticks == 0, Regime.SLIP_THROUGHOUT, once_or_more)
+    regime = Regime.of_phases(sticks, starts_in_slip, slips)
+    return final, impulse, np.minimum(peak, 1.0), regime

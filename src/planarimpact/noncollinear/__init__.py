@@ -38,7 +38,7 @@ from planarimpact.noncollinear.configuration import (
     motion_after,
     refuse_overflow,
 )
-from planarimpact.noncollinear.solver import Impacts, Outcome, Phase, solve
+from planarimpact.noncollinear.solver import Impacts, Phase, solve
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
 
 __all__ = [
@@ -55,8 +55,6 @@ __all__ = [
     "rigid",
 ]
 
-# Impacts solved together: few enough for memory, enough that Python's overhead is small.
-CHUNK = 65536
 # Largest group: its products with others are within float64, and no real body has a larger one.
 LARGEST = 1e50
 
@@ -189,29 +187,23 @@ def rebound(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
     v2, m2, e, kappa, impacts = _groups(arguments)
-    chunks = [
-        solve(Impacts._make(field[start : start + CHUNK] for field in impacts))
-        for start in range(0, max(v2.size, 1), CHUNK)  # one chunk even without an impact
-    ]
-    outcome = Outcome(*(np.concatenate(column) for column in zip(*chunks, strict=True)))
-    velocity, approach, friction_impulse, normal_impulse, peak_friction, peak_normal = outcome[:6]
-    work, duration, regime, jams, given_up = outcome[6:]
+    outcome = solve(impacts)
     force_unit = np.sqrt(m2) * np.sqrt(kappa) * v2
     with np.errstate(over="ignore"):
         fields = [
-            velocity * v2,
-            approach * v2,
-            friction_impulse * v2 * m2,
-            normal_impulse * v2 * m2,
-            peak_friction * force_unit,
-            peak_normal * force_unit,
-            work * v2 * (m2 * v2),
-            (1 - e) * (1 + e) * peak_normal**2 / 2 * v2 * (m2 * v2),
-            duration * np.sqrt(m2) / np.sqrt(kappa),
+            outcome.velocity * v2,
+            outcome.approach * v2,
+            outcome.friction_impulse * v2 * m2,
+            outcome.normal_impulse * v2 * m2,
+            outcome.peak_friction * force_unit,
+            outcome.peak_normal * force_unit,
+            outcome.friction_work * v2 * (m2 * v2),
+            (1 - e) * (1 + e) * outcome.peak_normal**2 / 2 * v2 * (m2 * v2),
+            outcome.duration * np.sqrt(m2) / np.sqrt(kappa),
         ]
     refuse_overflow(NoncollinearRebound._fields, fields)
     shape = arguments[0].shape
-    unsolved = np.flatnonzero(given_up)
+    unsolved = np.flatnonzero(outcome.given_up)
     if unsolved.size:
         if not shape:
             raise ConvergenceError(_given_up(impacts, unsolved))
@@ -219,11 +211,12 @@ def rebound(
         warnings.warn(_given_up(impacts, unsolved), RuntimeWarning, stacklevel=3)
         for field in fields:
             field[unsolved] = np.nan
-        regime[unsolved], jams[unsolved] = Regime.UNRESOLVED, False
-    results: list[Any] = [field.reshape(shape)[()] for field in (*fields, regime, jams)]
+        outcome.regime[unsolved], outcome.jams[unsolved] = Regime.UNRESOLVED, False
+    columns: list[Any] = [*fields, outcome.regime, outcome.jams]
+    *numbers, regime, jams = (column.reshape(shape)[()] for column in columns)
     if not shape:
-        results[-2:] = Regime(int(results[-2])), bool(results[-1])
-    return NoncollinearRebound(*results)
+        regime, jams = Regime(int(regime)), bool(jams)
+    return NoncollinearRebound._make([*numbers, regime, jams])
 
 
 @checks.default_errors

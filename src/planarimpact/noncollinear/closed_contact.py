@@ -36,46 +36,41 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from planarimpact.common.arrays import Array, Booleans, Numbers
-from planarimpact.noncollinear.phases import Groups, State
-
-# Compression goes on only if C F exceeds the peak of N by more than this share of it.
-TIE = 1e-14
+from planarimpact.noncollinear.phases import TIE, Groups, Mode, State
 
 
 class ClosedPhase(NamedTuple):
-    """Stick or creep of contacts that are held closed, from a state on.
+    """Stick or creep of contacts that are held closed, where F is a sinusoid.
 
-    `factor` is that of friction's rate: 1 in stick, mu |C| in creep.
+    `compliance` is V over the rate of F.
     """
 
-    state: State
-    groups: Groups
-    factor: Numbers
+    friction: Mode
+    coupling: Array
+    compliance: Array
     creeps: bool
+
+    @classmethod
+    def start(
+        cls, friction: Array, velocity: Array, groups: Groups, factor: Numbers, creeps: bool
+    ) -> Self:
+        """From F and V on; `factor` is that of friction's rate: 1 in stick, mu |C| in creep."""
+        beta, coupling, zeta2, *_ = groups
+        compliance = zeta2 / factor
+        rate = np.sqrt((beta - coupling * coupling) / compliance)
+        sinusoid = Mode(rate, friction, velocity / compliance / rate)
+        return cls(sinusoid, coupling, compliance, creeps)
 
     def at(self, time: Array) -> State:
         """States at these times, with the mean of N."""
-        beta, coupling, zeta2, *_ = self.groups
-        # F and V are a sinusoid; this is the amplitude of V over that of F, times the factor.
-        amplitude_ratio = np.sqrt(self.factor * (beta - coupling * coupling) * zeta2)
-        rate = amplitude_ratio / zeta2
-        cosine, sine = np.cos(rate * time), np.sin(rate * time)
-        friction, velocity = self.state.friction, self.state.velocity
-        friction_after = friction * cosine + self.factor / amplitude_ratio * velocity * sine
-        return State(
-            coupling * friction_after,
-            np.zeros_like(friction_after),
-            friction_after,
-            velocity * cosine - amplitude_ratio / self.factor * friction * sine,
-        )
+        friction, rise = self.friction.at(time)
+        zero = np.zeros_like(friction)
+        return State(self.coupling * friction, zero, friction, self.compliance * rise)
 
-    def impulses(self, time: Array) -> Array:
-        """Impulses of F and of the mean of N up to a time: an array of shape (2, n)."""
-        beta, coupling, zeta2, *_ = self.groups
-        rate = np.sqrt(self.factor * (beta - coupling * coupling) / zeta2)
-        rise = self.factor * self.state.velocity / zeta2 / rate * 2 * np.sin(rate * time / 2) ** 2
-        friction = (self.state.friction * np.sin(rate * time) + rise) / rate
-        return np.stack([friction, coupling * friction])
+    def impulses(self, time: Array) -> tuple[Array, Array]:
+        """Impulses of F and of the mean of N up to a time."""
+        friction = self.friction.integral(time)
+        return friction, self.coupling * friction
 
 
 class ClosedCourse(NamedTuple):
@@ -119,28 +114,21 @@ class ClosedCourse(NamedTuple):
         creep_factor = mu * coupling
         slips_first = np.isfinite(lowest)
         # F at the start of stick, after a slip in the first oscillation.
-        stick_force = np.where(slips_first, mu * np.where(slips_first, lowest, 0.0), first_force)
+        stick_force = np.where(slips_first, mu * lowest, first_force)
         # Stick is a sinusoid of F and V. If F rises, `largest_force` is its crest.
         amplitude_ratio = np.sqrt((beta - coupling * coupling) * zeta2)
-        rises = velocity > 0
-        largest_force = np.where(
-            rises, np.hypot(stick_force, velocity / amplitude_ratio), stick_force
-        )
+        largest_force = np.hypot(stick_force, np.maximum(velocity, 0.0) / amplitude_ratio)
         reloads = coupling * largest_force > peak * (1 + TIE)
-        # The F at which N comes down to F/mu, where creep begins. If F rises first, the amplitude
-        # of N at its crest is at most the difference of C F and the peak.
-        creep_force = np.where(
-            slips_first, stick_force, _creep_force(peak, stick_force, mu, coupling)
-        )
-        creep_force = np.where(
-            rises,
-            np.minimum(creep_force, _creep_force(peak, largest_force, mu, coupling)),
-            creep_force,
+        # The F at which N comes down to F/mu, where creep begins: at once after a slip. If F rises
+        # first, the amplitude of N at its crest is at most the difference of C F and the peak.
+        creep_force = np.minimum(
+            np.where(slips_first, stick_force, _creep_force(peak, stick_force, mu, coupling)),
+            _creep_force(peak, largest_force, mu, coupling),
         )
         # Stick ends where N reaches its peak, or where creep begins. The angle of the sinusoid
         # between start and end gives the time.
         end_force = np.where(reloads, peak / coupling, np.minimum(creep_force, largest_force))
-        start_speed = np.where(rises, 0.0, velocity)
+        start_speed = np.minimum(velocity, 0.0)
         end_speed = np.sqrt(
             start_speed * start_speed
             + amplitude_ratio**2 * (largest_force - end_force) * (largest_force + end_force)
@@ -160,17 +148,17 @@ class ClosedCourse(NamedTuple):
             first_force + stick_force
         ) + creeps * end_force * end_force * (1 - 1 / creep_factor)
         velocity_sign = np.where(reloads, side, -side)
-        stick_start = State(coupling * stick_force, zero, side * stick_force, state.velocity)
-        stick_end = State(coupling * end_force, zero, side * end_force, velocity_sign * end_speed)
+        start_of_stick = side * stick_force, state.velocity
+        start_of_creep = side * end_force, velocity_sign * end_speed
         return cls(
-            ClosedPhase(stick_start, groups, 1.0, creeps=False),
-            ClosedPhase(stick_end, groups, creep_factor, creeps=True),
+            ClosedPhase.start(*start_of_stick, groups, 1.0, creeps=False),
+            ClosedPhase.start(*start_of_creep, groups, creep_factor, creeps=True),
             np.maximum(angle, 0.0) * zeta2 / amplitude_ratio,
             creeps * creep_angle * zeta2 / creep_ratio,
             State(
                 np.where(reloads, peak, 0.0),
                 zero,
-                np.where(reloads, stick_end.friction, 0.0),
+                np.where(reloads, side * end_force, 0.0),
                 velocity_sign * final_speed,
             ),
             slips_first,

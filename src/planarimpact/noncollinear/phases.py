@@ -21,11 +21,16 @@ Stick. N and zeta F/time_scale are two oscillators coupled by one symmetric matr
 and q oscillate independently.
 """
 
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self, TypeVar
 
 import numpy as np
 
-from planarimpact.common.arrays import Array, Numbers
+from planarimpact.common.arrays import Array, Integers, Numbers
+
+# Two impulses or forces whose relative difference is smaller count as equal.
+TIE = 1e-14
+
+Fields = TypeVar("Fields", bound=tuple[Any, ...])
 
 
 class Groups(NamedTuple):
@@ -45,6 +50,28 @@ class State(NamedTuple):
     approach: Array
     friction: Array
     velocity: Array
+
+
+class Mode(NamedTuple):
+    """A sinusoid of the time: `cosine` cos(rate t) + `sine` sin(rate t)."""
+
+    rate: Array
+    cosine: Array
+    sine: Array
+
+    def at(self, time: Array) -> tuple[Array, Array]:
+        """The mode and its derivative at a time."""
+        return self.turned(np.sin(self.rate * time), np.cos(self.rate * time))
+
+    def turned(self, sine: Array, cosine: Array) -> tuple[Array, Array]:
+        """The mode and its derivative, from sine and cosine of rate t."""
+        value = self.cosine * cosine + self.sine * sine
+        return value, self.rate * (self.sine * cosine - self.cosine * sine)
+
+    def integral(self, time: Array) -> Array:
+        """The integral from 0 to a time."""
+        versine = 2 * np.sin(self.rate * time / 2) ** 2
+        return (self.cosine * np.sin(self.rate * time) + self.sine * versine) / self.rate
 
 
 class Slip(NamedTuple):
@@ -103,6 +130,10 @@ class Slip(NamedTuple):
         after_fall = (root - y) / np.where(force_falls_first, -inverse_mass, 1.0)
         return np.where(force_rises, without_fall, np.where(force_falls_first, after_fall, np.inf))
 
+    def impulses(self, impulse: Array) -> tuple[Array, Array]:
+        """Impulses of F and N, as `Stick.impulses`."""
+        return self.direction * self.groups.friction * impulse, impulse
+
     def after(self, impulse: Array, separation: Array) -> State:
         """State after an impulse, where `separation` is the impulse at separation, or inf."""
         n, y = self.state.normal, self.state.approach
@@ -158,22 +189,20 @@ class Slip(NamedTuple):
 
 
 class Stick(NamedTuple):
-    """Stick that begins at a state, as two modes p and q, sinusoids of the scaled time.
+    """Stick that begins at a state, as two modes p and q of the scaled time.
 
     `cosine` and `sine` turn modes into forces: N = cosine p + sine q, F scale = cosine q - sine p.
-    `p` and `q` hold the amplitudes of cos(rate t) and sin(rate t). `sizes` are bounds of |p| and
-    |q| from the sizes of their terms, so that rounding errors are in proportion to them.
+    `sizes` are bounds of |p| and |q| from the sizes of their terms, so that rounding errors are in
+    proportion to them.
     """
 
     cosine: Array
     sine: Array
     scale: Array
     zeta: Array
-    rate_p: Array
-    rate_q: Array
-    p: tuple[Array, Array]
-    q: tuple[Array, Array]
-    sizes: tuple[Array, ...]
+    p: Mode
+    q: Mode
+    sizes: tuple[Array, Array]
 
     @classmethod
     def start(cls, state: State, groups: Groups) -> Self:
@@ -207,29 +236,33 @@ class Stick(NamedTuple):
             n_share * np.hypot(n, y / rate_p) + f_share * np.hypot(force, force_rate / rate_p),
             f_share * np.hypot(n, y / rate_q) + n_share * np.hypot(force, force_rate / rate_q),
         )
-        modes = (p, p_rate / rate_p), (q, q_rate / rate_q)
-        return cls(cosine, sine, scale, zeta, rate_p, rate_q, *modes, sizes)
+        modes = Mode(rate_p, p, p_rate / rate_p), Mode(rate_q, q, q_rate / rate_q)
+        return cls(cosine, sine, scale, zeta, *modes, sizes)
 
     def at(self, time: Array) -> State:
         """States at scaled times: one for each contact, or many for one contact."""
-        cos_p, sin_p = np.cos(self.rate_p * time), np.sin(self.rate_p * time)
-        cos_q, sin_q = np.cos(self.rate_q * time), np.sin(self.rate_q * time)
-        p = self.p[0] * cos_p + self.p[1] * sin_p
-        q = self.q[0] * cos_q + self.q[1] * sin_q
-        p_rate = self.rate_p * (self.p[1] * cos_p - self.p[0] * sin_p)
-        q_rate = self.rate_q * (self.q[1] * cos_q - self.q[0] * sin_q)
+        (p, p_rate), (q, q_rate) = self.p.at(time), self.q.at(time)
         friction, normal = rotated(q, p, self.cosine, self.sine)
         velocity, approach = rotated(q_rate, p_rate, self.cosine, self.sine)
         return State(normal, approach, friction / self.scale, self.zeta * velocity)
 
     def impulses(self, time: Array) -> tuple[Array, Array]:
         """Impulses of F and N up to a scaled time."""
-        p, q = (
-            (cos * np.sin(rate * time) + sin * 2 * np.sin(rate * time / 2) ** 2) / rate
-            for rate, (cos, sin) in ((self.rate_p, self.p), (self.rate_q, self.q))
-        )
+        p, q = self.p.integral(time), self.q.integral(time)
         friction, normal = rotated(q, p, self.cosine, self.sine)
         return friction / self.scale, normal
+
+    def bounds(self) -> State:
+        """Bounds of |N|, |y|, |F| and |V|, from those of the modes."""
+        cosine, sine = self.cosine, np.abs(self.sine)
+        p, q = self.sizes
+        p_rate, q_rate = self.p.rate * p, self.q.rate * q
+        return State(
+            cosine * p + sine * q,
+            cosine * p_rate + sine * q_rate,
+            (sine * p + cosine * q) / self.scale,
+            self.zeta * (sine * p_rate + cosine * q_rate),
+        )
 
 
 def rotated(one: Array, other: Array, cosine: Array, sine: Array) -> tuple[Array, Array]:
@@ -240,3 +273,9 @@ def rotated(one: Array, other: Array, cosine: Array, sine: Array) -> tuple[Array
     """
     half_tangent = sine / (1 + cosine)
     return one - sine * (other + half_tangent * one), other + sine * (one - half_tangent * other)
+
+
+def taken(fields: Fields, chosen: Integers) -> Fields:
+    """A named tuple of arrays, or of other such tuples, for the contacts with these indices."""
+    parts = (taken(f, chosen) if isinstance(f, tuple) else f.take(chosen, axis=-1) for f in fields)
+    return type(fields)(*parts)

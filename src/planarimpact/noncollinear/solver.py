@@ -1,21 +1,22 @@
 """Solves non-collinear contacts phase by phase, from contact to separation."""
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers, Numbers
 from planarimpact.common.results import Regime
-from planarimpact.noncollinear import closed_contact, stick_end
-from planarimpact.noncollinear.phases import Groups, Slip, State, Stick
+from planarimpact.noncollinear import stick_end
+from planarimpact.noncollinear.closed_contact import ClosedCourse, ClosedPhase, held_closed
+from planarimpact.noncollinear.phases import TIE, Groups, Slip, State, Stick, taken
 
+# Impacts solved together: few enough for memory, enough that Python's overhead is small.
+CHUNK = 65536
 # The solver gives up a contact with more phases than this.
 MOST_PHASES = 5_000
 # Time scale of unloading where restitution is smaller: then the tangential motion is the same, to
 # rounding.
 SMALLEST_TIME_SCALE = 1e-50
-# Two impulses whose relative difference is smaller are considered equal.
-TIE = 1e-14
 
 
 class Impacts(NamedTuple):
@@ -29,30 +30,13 @@ class Impacts(NamedTuple):
     restitution: Array
 
 
-class Outcome(NamedTuple):
-    """Results of impacts so far, arrays of shape (n,), filled in place.
-
-    `given_up` marks impacts with too many phases or oscillations: they have no result.
-    Impulses are sums: the change of velocity has too few digits for them where C^2 is near beta.
-    """
-
-    velocity: Array
-    approach: Array
-    friction_impulse: Array
-    normal_impulse: Array
-    peak_friction: Array
-    peak_normal: Array
-    friction_work: Array
-    duration: Array
-    regime: Integers
-    jams: Booleans
-    given_up: Booleans
+Motion: TypeAlias = Slip | Stick | ClosedPhase
 
 
 class Phase(NamedTuple):
     """One phase of one contact: its motion, whether in unloading, and its scaled duration."""
 
-    motion: Slip | Stick | closed_contact.ClosedPhase
+    motion: Motion
     unloading: bool
     duration: float
 
@@ -75,35 +59,76 @@ class Contacts(NamedTuple):
     slid_first: Booleans
 
 
+class Outcome(NamedTuple):
+    """Results of impacts so far, arrays of shape (n,), filled in place.
+
+    `given_up` marks impacts with too many phases or oscillations: they have no result.
+    Impulses are sums: the change of velocity has too few digits for them where C^2 is near beta.
+    `trace` gets the phases of a single impact in order.
+    """
+
+    velocity: Array
+    approach: Array
+    friction_impulse: Array
+    normal_impulse: Array
+    peak_friction: Array
+    peak_normal: Array
+    friction_work: Array
+    duration: Array
+    regime: Integers
+    jams: Booleans
+    given_up: Booleans
+    trace: list[Phase] | None
+
+    def add(
+        self,
+        contacts: Contacts,
+        motion: Motion,
+        duration: Array,
+        impulses: tuple[Array, Array],
+        peak_friction: Array,
+        time_scale: Numbers = 1.0,
+    ) -> None:
+        """Add a phase of contacts, with the scaled duration and impulses of F and N."""
+        impact = contacts.impact
+        self.duration[impact] += time_scale * duration
+        friction, normal = impulses
+        self.friction_impulse[impact] += time_scale * friction
+        self.normal_impulse[impact] += time_scale * normal
+        self.peak_friction[impact] = np.maximum(self.peak_friction[impact], peak_friction)
+        if self.trace is not None:
+            self.trace.append(Phase(motion, bool(contacts.unloading[0]), float(duration[0])))
+
+
 def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
-    """Solve impacts; the phases of a single impact are appended to `trace` in order."""
+    """Solve impacts, chunk by chunk; the phases of a single one are appended to `trace`."""
     size = impacts.velocity.size
     outcome = Outcome._make(
-        [*np.zeros((8, size)), np.zeros(size, np.uint8), *np.zeros((2, size), bool)]
+        [*np.zeros((8, size)), np.zeros(size, np.uint8), *np.zeros((2, size), bool), trace]
     )
-    contacts = _start(impacts)
-    for _ in range(MOST_PHASES):
-        if not contacts.impact.size:
-            break
-        contacts = _next_phase(contacts, impacts, outcome, trace)
-    outcome.given_up[contacts.impact] = True
+    for start in range(0, size, CHUNK):
+        contacts = _start(impacts, np.arange(start, min(start + CHUNK, size)))
+        for _ in range(MOST_PHASES):
+            if not contacts.impact.size:
+                break
+            contacts = _next_phase(contacts, impacts, outcome)
+        outcome.given_up[contacts.impact] = True
     return outcome
 
 
-def _start(impacts: Impacts) -> Contacts:
+def _start(impacts: Impacts, chosen: Integers) -> Contacts:
     """Contacts at their first instant: they stick, unless the body is faster than the spring."""
-    velocity, mu, zeta2 = impacts.velocity, impacts.friction, impacts.stiffness_ratio
-    size = velocity.size
+    velocity, size = impacts.velocity[chosen], chosen.size
     direction = np.where(velocity < 0, -1.0, 1.0)
     start = State(np.zeros(size), np.ones(size), np.zeros(size), velocity)
-    groups = _groups(impacts, np.arange(size), np.zeros(size, bool))
-    limit = mu * zeta2
+    groups = _groups(impacts, chosen, np.zeros(size, bool))
+    limit = groups.friction * groups.stiffness_ratio
     # At the limit itself |F| = mu N to first order in time: the contact slips if slip gets faster.
     gets_faster = Slip.start(start, groups, direction).slope >= 0
     at_limit = np.abs(velocity) == limit
-    slides = (np.abs(velocity) > limit) | (at_limit & gets_faster) | (mu == 0)
+    slides = (np.abs(velocity) > limit) | (at_limit & gets_faster) | (groups.friction == 0)
     return Contacts(
-        np.arange(size),
+        chosen,
         start,
         np.zeros(size, bool),
         np.where(slides, direction, 0.0),
@@ -121,9 +146,7 @@ def _groups(impacts: Impacts, chosen: Integers, unloading: Booleans) -> Groups:
     return Groups._make([*groups, time_scale])
 
 
-def _next_phase(
-    contacts: Contacts, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
-) -> Contacts:
+def _next_phase(contacts: Contacts, impacts: Impacts, outcome: Outcome) -> Contacts:
     """Advance every contact by one phase, and return those that have not ended."""
     groups = _groups(impacts, contacts.impact, contacts.unloading)
     in_stick = contacts.direction == 0
@@ -131,16 +154,9 @@ def _next_phase(
     for mask, advance in ((~in_stick, _slip_phase), (in_stick, _stick_phase)):
         chosen = np.flatnonzero(mask)
         if chosen.size:
-            chosen_groups = Groups(*(group[chosen] for group in groups))
-            event = advance(_take(contacts, chosen), chosen_groups, outcome, trace)
-            remaining.append(_after_event(*event, impacts, outcome, trace))
+            event = advance(taken(contacts, chosen), taken(groups, chosen), outcome)
+            remaining.append(_after_event(*event, impacts, outcome))
     return remaining[0] if len(remaining) == 1 else _join(*remaining)
-
-
-def _take(contacts: Contacts, chosen: Integers) -> Contacts:
-    """The chosen contacts."""
-    state = State._make(field[chosen] for field in contacts.state)
-    return Contacts._make(state if field is contacts.state else field[chosen] for field in contacts)
 
 
 def _join(first: Contacts, second: Contacts) -> Contacts:
@@ -153,29 +169,26 @@ def _join(first: Contacts, second: Contacts) -> Contacts:
 
 
 def _slip_phase(
-    contacts: Contacts, groups: Groups, outcome: Outcome, trace: list[Phase] | None
+    contacts: Contacts, groups: Groups, outcome: Outcome
 ) -> tuple[Contacts, Booleans, Booleans]:
     """Slip to its next event: contacts there, where a half ends, where N is at its peak again."""
     slip = Slip.start(contacts.state, groups, contacts.direction)
     unloading = contacts.unloading
     separation = np.where(unloading, slip.separation(), np.inf)
-    candidates = np.stack(
-        [
-            # If slip stops at the instant of another event, the other one comes first: the next
-            # phase then shows whether slip goes on.
-            slip.stop() * (1 + TIE),
-            np.where(unloading, separation, slip.approach_end()),
-            np.where(unloading, slip.reload(contacts.peak), np.inf),
-        ]
-    )
-    event = candidates.argmin(axis=0)
-    impulse = candidates.min(axis=0)
+    # If slip stops at the instant of another event, the other one comes first: the next phase then
+    # shows whether slip goes on.
+    stop = slip.stop() * (1 + TIE)
+    half_end = np.where(unloading, separation, slip.approach_end())
+    peak_again = np.where(unloading, slip.reload(contacts.peak), np.inf)
+    impulse = np.minimum(np.minimum(stop, half_end), peak_again)
+    stops = stop == impulse
+    half_ends = ~stops & (half_end == impulse)
+    at_peak = ~(stops | half_ends)
     # Where C^2 equals m2/m1 to the last digits, rounding may leave no event.
     no_event = ~np.isfinite(impulse)
     outcome.given_up[contacts.impact] = no_event
     impulse = np.where(no_event, 0.0, impulse)
     after = slip.after(impulse, separation)
-    stops, half_ends, at_peak = (event == kind for kind in range(3))
     after = after._replace(
         approach=np.where(half_ends & ~unloading, 0.0, after.approach),
         normal=np.where(half_ends & unloading, 0.0, np.where(at_peak, contacts.peak, after.normal)),
@@ -186,14 +199,10 @@ def _slip_phase(
     has_maximum = (contacts.state.approach > 0) & (after.approach < 0) & unloading
     maximum = slip.after(np.where(has_maximum, slip.approach_end(), 0.0), separation).normal
     largest = np.maximum(np.maximum(contacts.state.normal, after.normal), maximum)
-    outcome.peak_friction[impact] = np.maximum(outcome.peak_friction[impact], mu * largest)
+    duration, impulses = slip.duration(impulse, after.normal), slip.impulses(impulse)
+    outcome.add(contacts, slip, duration, impulses, mu * largest, groups.time_scale)
     outcome.friction_work[impact] += slip.work(impulse)
-    duration = slip.duration(impulse, after.normal)
-    outcome.duration[impact] += groups.time_scale * duration
-    outcome.normal_impulse[impact] += groups.time_scale * impulse
-    outcome.friction_impulse[impact] += groups.time_scale * contacts.direction * mu * impulse
     outcome.jams[impact] |= (slip.inverse_mass < 0) & (impulse > 0)
-    _record(trace, slip, contacts, duration)
     contacts_after = contacts._replace(
         state=after,
         direction=np.where(stops, 0.0, contacts.direction),
@@ -204,7 +213,7 @@ def _slip_phase(
 
 
 def _stick_phase(
-    contacts: Contacts, groups: Groups, outcome: Outcome, trace: list[Phase] | None
+    contacts: Contacts, groups: Groups, outcome: Outcome
 ) -> tuple[Contacts, Booleans, Booleans]:
     """Stick to its next event; returns as `_slip_phase`."""
     stick = Stick.start(contacts.state, groups)
@@ -214,10 +223,11 @@ def _stick_phase(
     )
     time, event = stick_end.first_zero(functions)
     impact = contacts.impact
-    outcome.given_up[impact] = event < 0
+    outcome.given_up[impact] = event == stick_end.NOT_FOUND
     after = stick.at(time)
-    forward, backward, friction_turns, half_ends, last = (event == kind for kind in range(5))
-    at_peak = last & contacts.rising
+    forward, backward = event == stick_end.FORWARD_SLIP, event == stick_end.BACKWARD_SLIP
+    half_ends, force_rises = event == stick_end.END_OF_HALF, event == stick_end.FORCE_RISES
+    at_peak = force_rises & contacts.rising
     direction = np.where(forward, 1.0, np.where(backward, -1.0, 0.0))
     slides = forward | backward
     mu = groups.friction
@@ -229,41 +239,20 @@ def _stick_phase(
         normal,
         np.where(half_ends & ~unloading, 0.0, after.approach),
         np.where(slides, direction * mu * normal, after.friction),
-        np.where(friction_turns, 0.0, after.velocity),
+        np.where(event == stick_end.EXTREMUM_OF_FRICTION, 0.0, after.velocity),
     )
-    largest = np.maximum(outcome.peak_friction[impact], np.abs(after.friction))
-    outcome.peak_friction[impact] = largest
-    outcome.duration[impact] += groups.time_scale * time
-    friction_impulse, normal_impulse = stick.impulses(time)
-    outcome.friction_impulse[impact] += groups.time_scale * friction_impulse
-    outcome.normal_impulse[impact] += groups.time_scale * normal_impulse
-    _record(trace, stick, contacts, time)
+    peak_friction = np.abs(after.friction)
+    outcome.add(contacts, stick, time, stick.impulses(time), peak_friction, groups.time_scale)
     contacts_after = contacts._replace(
         state=after,
         direction=direction,
-        rising=(contacts.rising | last) & ~at_peak,
+        rising=(contacts.rising | force_rises) & ~at_peak,
     )
     return contacts_after, half_ends, at_peak
 
 
-def _record(
-    trace: list[Phase] | None,
-    motion: Slip | Stick | closed_contact.ClosedPhase,
-    contacts: Contacts,
-    duration: Array,
-) -> None:
-    """Append a phase to the trace of a single contact."""
-    if trace is not None:
-        trace.append(Phase(motion, bool(contacts.unloading[0]), float(duration[0])))
-
-
 def _after_event(
-    contacts: Contacts,
-    half_ends: Booleans,
-    at_peak: Booleans,
-    impacts: Impacts,
-    outcome: Outcome,
-    trace: list[Phase] | None,
+    contacts: Contacts, half_ends: Booleans, at_peak: Booleans, impacts: Impacts, outcome: Outcome
 ) -> Contacts:
     """Start unloading or loading, write the outcome of contacts that separate, and drop them."""
     impact, state = contacts.impact, contacts.state
@@ -281,54 +270,43 @@ def _after_event(
     )
     in_stick = np.flatnonzero(no_restitution & (contacts.direction == 0))
     if in_stick.size:
-        contacts, reloading = _closed_course(contacts, in_stick, impacts, outcome, trace)
-        separates[reloading] = False
+        separates[_closed_course(contacts, in_stick, impacts, outcome)] = False
     separating = np.flatnonzero(separates)
     if separating.size:
-        _write_outcome(_take(contacts, separating), e[separating], impacts, outcome)
+        _write_outcome(taken(contacts, separating), e[separating], impacts, outcome)
     ended = separates | outcome.given_up[impact]
-    return _take(contacts, np.flatnonzero(~ended)) if ended.any() else contacts
+    return taken(contacts, np.flatnonzero(~ended)) if ended.any() else contacts
 
 
 def _closed_course(
-    contacts: Contacts,
-    in_stick: Integers,
-    impacts: Impacts,
-    outcome: Outcome,
-    trace: list[Phase] | None,
-) -> tuple[Contacts, Integers]:
-    """Advance contacts in stick without restitution if friction holds them closed.
+    contacts: Contacts, in_stick: Integers, impacts: Impacts, outcome: Outcome
+) -> Integers:
+    """Advance contacts in stick without restitution, in place, if friction holds them closed.
 
-    Returns all contacts, and the indices of those whose compression goes on.
+    Returns the indices of those whose compression goes on.
     """
-    candidates = _take(contacts, in_stick)
+    candidates = taken(contacts, in_stick)
     groups = _groups(impacts, candidates.impact, np.zeros(in_stick.size, bool))
-    is_held, lowest = closed_contact.held_closed(candidates.state, groups)
+    is_held, lowest = held_closed(candidates.state, groups)
     kept = np.flatnonzero(is_held)
-    held, closed = in_stick[kept], _take(candidates, kept)
-    groups = Groups(*(group[kept] for group in groups))
-    course = closed_contact.ClosedCourse.of(closed.state, groups, lowest[kept])
-    impact = closed.impact
-    outcome.peak_friction[impact] = np.maximum(outcome.peak_friction[impact], course.peak_friction)
-    outcome.friction_work[impact] += course.work
-    outcome.duration[impact] += course.stick_time + course.creep_time
-    impulses = course.stick.impulses(course.stick_time) + course.creep.impulses(course.creep_time)
-    outcome.friction_impulse[impact] += impulses[0]
-    outcome.normal_impulse[impact] += impulses[1]
-    outcome.jams[impact] |= course.slips_first | ~course.reloads
+    held, closed = in_stick[kept], taken(candidates, kept)
+    groups = taken(groups, kept)
+    course = ClosedCourse.of(closed.state, groups, lowest[kept])
     if kept.size:
-        _record(trace, course.stick, closed, course.stick_time)
-        if not course.reloads.all():
-            _record(trace, course.creep, closed, course.creep_time)
-    state = State(*(field.copy() for field in contacts.state))
-    for field, end in zip(state, course.end, strict=True):
+        impulses = course.stick.impulses(course.stick_time)
+        outcome.add(closed, course.stick, course.stick_time, impulses, course.peak_friction)
+    if not course.reloads.all():
+        impulses = course.creep.impulses(course.creep_time)
+        outcome.add(closed, course.creep, course.creep_time, impulses, course.peak_friction)
+    impact = closed.impact
+    outcome.friction_work[impact] += course.work
+    outcome.jams[impact] |= course.slips_first | ~course.reloads
+    for field, end in zip(contacts.state, course.end, strict=True):
         field[held] = end
     # A slip in the first oscillation is followed by a new stick, and creep has many.
-    stick_count, unloading = contacts.stick_count.copy(), contacts.unloading.copy()
-    stick_count[held] += course.slips_first + 2 * ~course.reloads
-    unloading[held] = ~course.reloads
-    contacts = contacts._replace(state=state, stick_count=stick_count, unloading=unloading)
-    return contacts, held[course.reloads]
+    contacts.stick_count[held] += course.slips_first + 2 * ~course.reloads
+    contacts.unloading[held] = ~course.reloads
+    return held[course.reloads]
 
 
 def _write_outcome(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outcome) -> None:
@@ -342,15 +320,6 @@ def _write_outcome(contacts: Contacts, e: Array, impacts: Impacts, outcome: Outc
     outcome.approach[impact] = e * state.approach
     outcome.peak_normal[impact] = contacts.peak
     outcome.friction_work[impact] += impacts.stiffness_ratio[impact] * state.friction**2 / 2
-    sticks, slid_first, slides = contacts.stick_count, contacts.slid_first, contacts.direction != 0
-    outcome.regime[impact] = np.select(
-        [sticks == 0, sticks > 1, slid_first & slides, slid_first, slides],
-        [
-            Regime.SLIP_THROUGHOUT,
-            Regime.MULTIPLE,
-            Regime.SLIP_STICK_SLIP,
-            Regime.SLIP_STICK,
-            Regime.STICK_SLIP,
-        ],
-        Regime.STICK,
+    outcome.regime[impact] = Regime.of_phases(
+        contacts.stick_count, contacts.slid_first, contacts.direction != 0
     )

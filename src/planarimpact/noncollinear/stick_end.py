@@ -1,7 +1,9 @@
 """Where stick ends: the first zero of several functions, each a sum of the two modes.
 
-The search advances from the left only, in steps that cannot pass a zero. Two lower bounds of a
-function f give such steps, and the longer one is taken.
+The finder of `common.roots` needs a bracket with a single zero, and here none is known before the
+steps below have come so close to the first zero that nothing is left to refine. So the search
+advances from the left only, in steps that cannot pass a zero. Two lower bounds of a function f give
+such steps, and the longer one is taken.
 
 - With |f''| <= M the step is the positive root h of f + f' h - M h^2/2. M is `curvature`.
 - In stick every function obeys f'' + rate^2 f >= -load. So f lies above the solution of
@@ -24,8 +26,13 @@ import numpy as np
 
 from planarimpact.common.angles import sin_cos
 from planarimpact.common.arrays import Array, Booleans, Integers
-from planarimpact.noncollinear.phases import Groups, Slip, State, Stick, rotated
+from planarimpact.noncollinear.phases import Groups, Mode, Slip, State, Stick, rotated, taken
 
+# What ends a phase of stick; each is the row of a function in `Functions`. A half of the contact
+# ends at maximum compression or at separation. In unloading the force may begin to rise again, and
+# if it does, reach its earlier peak.
+FORWARD_SLIP, BACKWARD_SLIP, EXTREMUM_OF_FRICTION, END_OF_HALF, FORCE_RISES = range(5)
+NOT_FOUND = -1  # the search gave up
 NOISE = 1e-15
 # Added to the noise, smaller than any force that matters: so a function that is 0 throughout has no
 # zero.
@@ -39,109 +46,80 @@ LEAST_SEARCHED = 0.7
 
 
 class Functions(NamedTuple):
-    """Functions constant + p_cos cos(rate_p t) + p_sin sin(rate_p t) + ... of n contacts.
+    """The functions of n contacts, as the constant plus the modes p and q.
 
     Arrays of shape (5, n); the rates of the modes have shape (n,). `noise` is the rounding error of
     a function, `square` and `load` are rate^2 and load of its second lower bound.
     """
 
     constant: Array
-    p_cos: Array
-    p_sin: Array
-    q_cos: Array
-    q_sin: Array
+    p: Mode
+    q: Mode
     noise: Array
     square: Array
     load: Array
-    rate_p: Array
-    rate_q: Array
-
-    def take(self, chosen: Booleans) -> "Functions":
-        """These functions for the chosen contacts."""
-        return Functions._make(field[..., chosen] for field in self)
 
 
 def functions_of(
     stick: Stick, state: State, groups: Groups, peak: Array, unloading: Booleans, rising: Booleans
 ) -> Functions:
-    """The five functions whose first zero ends a phase of stick.
-
-    mu N - F and mu N + F (slip begins); |V| (an extremum of F); y in compression, N in unloading
-    (maximum compression, separation); in unloading -y (the force begins to rise again) or, where it
-    is `rising`, peak - N (the force reaches its earlier peak).
-    """
-    beta, coupling, _, mu, _ = groups
-    cosine, sine, scale, zeta = stick.cosine, stick.sine, stick.scale, stick.zeta
-    loading, falls = ~unloading, unloading & ~rising
+    """The functions whose first zero ends a phase of stick."""
+    beta, coupling, zeta2, mu, time_scale = groups
+    bound, pull = stick.bounds(), np.abs(coupling)
     # The sign of V, or of V' where V = 0.
     moves = np.where(
         state.velocity != 0, state.velocity, coupling * state.normal - beta * state.friction
     )
-    signed_zeta = np.where(moves < 0, -zeta, zeta)
-    zero = np.zeros(state.normal.size)
-    constant = np.stack([zero, zero, zero, zero, np.where(rising, peak, 1.0 * loading)])
-    # Coefficients of N, F scale, and of their derivatives in each function.
-    normal = np.stack([mu, mu, zero, 1.0 * unloading, -1.0 * rising])
-    friction = np.stack([-1 / scale, 1 / scale, zero, zero, zero])
-    normal_rate = np.stack([zero, zero, zero, 1.0 * loading, -1.0 * falls])
-    friction_rate = np.stack([zero, zero, signed_zeta, zero, zero])
-    # The same of the modes, and of their derivatives over the rate.
-    in_p, in_q = rotated(normal, friction, cosine, sine)
-    in_p_rate, in_q_rate = rotated(normal_rate, friction_rate, cosine, sine)
-    in_p_rate, in_q_rate = in_p_rate * stick.rate_p, in_q_rate * stick.rate_q
-    (p_cos, p_sin), (q_cos, q_sin) = stick.p, stick.q
+    tangential = time_scale**2 * beta / zeta2
+    forward, backward = (Slip.start(state, groups, side).slope for side in (1.0, -1.0))
+    normal_load = pull * bound.friction  # of N'' + N
+    approach_load = pull * time_scale / zeta2 * bound.velocity  # of y'' + y
+    # Each function is a constant, and N, F, y and V with factors.
+    table = np.zeros((7, 5, mu.size))
+    constant, normal, friction, approach, velocity, square, load = table
+    # mu N - F: slip begins
+    normal[FORWARD_SLIP], friction[FORWARD_SLIP] = mu, -1.0
+    square[FORWARD_SLIP] = tangential + mu * coupling
+    load[FORWARD_SLIP] = np.maximum(forward, 0.0) / zeta2 * bound.normal
+    # mu N + F: slip begins
+    normal[BACKWARD_SLIP], friction[BACKWARD_SLIP] = mu, 1.0
+    square[BACKWARD_SLIP] = tangential - mu * coupling
+    load[BACKWARD_SLIP] = np.maximum(backward, 0.0) / zeta2 * bound.normal
+    # |V|: an extremum of F
+    velocity[EXTREMUM_OF_FRICTION] = np.where(moves < 0, -1.0, 1.0)
+    square[EXTREMUM_OF_FRICTION] = tangential
+    load[EXTREMUM_OF_FRICTION] = pull * time_scale * bound.approach
+    # y in compression, N in unloading
+    normal[END_OF_HALF], approach[END_OF_HALF] = unloading, ~unloading
+    square[END_OF_HALF] = 1.0
+    load[END_OF_HALF] = np.where(unloading, normal_load, approach_load)
+    # In unloading -y (the force begins to rise) or, where it is `rising`, peak - N (it reaches its
+    # earlier peak); in compression 1.
+    constant[FORCE_RISES] = np.where(rising, peak, ~unloading)
+    normal[FORCE_RISES], approach[FORCE_RISES] = -1.0 * rising, -1.0 * (unloading & ~rising)
+    square[FORCE_RISES] = 1.0
+    load[FORCE_RISES] = np.where(rising, normal_load, np.where(unloading, approach_load, 0.0))
+    # In the modes, and in their derivatives over the rate.
+    cosine, sine, p, q = stick.cosine, stick.sine, stick.p, stick.q
+    in_p, in_q = rotated(normal, friction / stick.scale, cosine, sine)
+    in_p_rate, in_q_rate = rotated(approach, stick.zeta * velocity, cosine, sine)
+    in_p_rate, in_q_rate = in_p_rate * p.rate, in_q_rate * q.rate
     p_size, q_size = stick.sizes
     size = (np.abs(in_p) + np.abs(in_p_rate)) * p_size + (np.abs(in_q) + np.abs(in_q_rate)) * q_size
     return Functions(
         constant,
-        in_p * p_cos + in_p_rate * p_sin,
-        in_p * p_sin - in_p_rate * p_cos,
-        in_q * q_cos + in_q_rate * q_sin,
-        in_q * q_sin - in_q_rate * q_cos,
+        Mode(p.rate, in_p * p.cosine + in_p_rate * p.sine, in_p * p.sine - in_p_rate * p.cosine),
+        Mode(q.rate, in_q * q.cosine + in_q_rate * q.sine, in_q * q.sine - in_q_rate * q.cosine),
         NOISE * size + LEAST_NOISE,
-        *_square_and_load(stick, state, groups, unloading, rising),
-        stick.rate_p,
-        stick.rate_q,
+        square,
+        load,
     )
-
-
-def _square_and_load(
-    stick: Stick, state: State, groups: Groups, unloading: Booleans, rising: Booleans
-) -> tuple[Array, Array]:
-    """rate^2 and load of each function, from bounds of |N|, |F|, |y| and |V|."""
-    beta, coupling, zeta2, mu, time_scale = groups
-    p_size, q_size = stick.sizes
-    cosine, sine = stick.cosine, np.abs(stick.sine)
-    normal = cosine * p_size + sine * q_size
-    friction = (sine * p_size + cosine * q_size) / stick.scale
-    approach = cosine * stick.rate_p * p_size + sine * stick.rate_q * q_size
-    velocity = stick.zeta * (sine * stick.rate_p * p_size + cosine * stick.rate_q * q_size)
-    tangential, one = time_scale**2 * beta / zeta2, np.ones(mu.size)
-    square = np.stack(
-        [tangential + mu * coupling, tangential - mu * coupling, tangential, one, one]
-    )
-    slopes = [Slip.start(state, groups, side).slope for side in (1.0, -1.0)]
-    normal_load = np.abs(coupling) * friction  # of N'' + N
-    approach_load = np.abs(coupling) * time_scale / zeta2 * velocity  # of y'' + y
-    load = np.stack(
-        [
-            np.maximum(slopes[0], 0.0) / zeta2 * normal,
-            np.maximum(slopes[1], 0.0) / zeta2 * normal,
-            np.abs(coupling) * time_scale * approach,
-            np.where(unloading, normal_load, approach_load),
-            np.where(rising, normal_load, np.where(unloading, approach_load, 0.0)),
-        ]
-    )
-    return square, load
 
 
 def first_zero(functions: Functions) -> tuple[Array, Integers]:
-    """Time (n,) of the first zero of each contact's functions, and which one has it (n,).
-
-    Its index is -1 where `MOST_STEPS` steps did not reach a zero.
-    """
-    count = functions.rate_p.size
-    zero_time, zero_index = np.zeros(count), np.full(count, -1)
+    """Time (n,) of the first zero of each contact's functions, and which one has it (n,)."""
+    count = functions.p.rate.size
+    zero_time, zero_index = np.zeros(count), np.full(count, NOT_FOUND)
     # The contacts in the arrays: their number, their time so far, and which are still searched.
     contact, time, searched = np.arange(count), np.zeros(count), np.ones(count, bool)
     curvature = _curvature(functions)
@@ -151,7 +129,7 @@ def first_zero(functions: Functions) -> tuple[Array, Integers]:
         step, nearest = _free_step(functions, curvature, value, slope)
         before, time = time, time + step
         # The search also ends where rounding of a large time swallows the step.
-        angle = step * np.maximum(functions.rate_p, functions.rate_q)
+        angle = step * np.maximum(functions.p.rate, functions.q.rate)
         done = np.flatnonzero(((angle <= LAST_ANGLE) | (time == before)) & searched)
         if done.size:
             place = nearest[done], done
@@ -164,27 +142,24 @@ def first_zero(functions: Functions) -> tuple[Array, Integers]:
                 break
             if number < LEAST_SEARCHED * searched.size:
                 contact, time, curvature = contact[searched], time[searched], curvature[:, searched]
-                functions = functions.take(searched)
+                functions = taken(functions, np.flatnonzero(searched))
                 searched = np.ones(number, bool)
     return zero_time, zero_index
 
 
 def _curvature(functions: Functions) -> Array:
     """Bound of the second derivative of each function."""
-    p_size = np.hypot(functions.p_cos, functions.p_sin) * functions.rate_p**2
-    q_size = np.hypot(functions.q_cos, functions.q_sin) * functions.rate_q**2
+    p_size, q_size = (
+        np.hypot(mode.cosine, mode.sine) * mode.rate**2 for mode in (functions.p, functions.q)
+    )
     return np.maximum(p_size + q_size, LEAST_NOISE**2)
 
 
 def _values(functions: Functions, time: Array) -> tuple[Array, Array]:
     """The functions and their slopes."""
-    sin_p, cos_p = sin_cos(functions.rate_p * time)
-    sin_q, cos_q = sin_cos(functions.rate_q * time)
-    value = functions.constant + functions.p_cos * cos_p + functions.p_sin * sin_p
-    value += functions.q_cos * cos_q + functions.q_sin * sin_q
-    slope = functions.rate_p * (functions.p_sin * cos_p - functions.p_cos * sin_p)
-    slope += functions.rate_q * (functions.q_sin * cos_q - functions.q_cos * sin_q)
-    return value, slope
+    p, p_slope = functions.p.turned(*sin_cos(functions.p.rate * time))
+    q, q_slope = functions.q.turned(*sin_cos(functions.q.rate * time))
+    return functions.constant + p + q, p_slope + q_slope
 
 
 def _free_step(
@@ -195,8 +170,7 @@ def _free_step(
     by_curvature = (slope + np.sqrt(slope * slope + 2 * curvature * value)) / curvature
     by_oscillation = _oscillation_step(value, slope, functions.square, functions.load)
     steps = np.maximum(by_curvature, by_oscillation)
-    nearest = steps.argmin(axis=0)
-    return np.take_along_axis(steps, nearest[None], axis=0)[0], nearest
+    return steps.min(axis=0), steps.argmin(axis=0)
 
 
 def _to_zero(value: Array, slope: Array, curvature: Array) -> Array:

@@ -58,17 +58,11 @@ def timeline(
     """History of a contact; units are v2(0) [m/s], m2 Omega [N s/m] and 1/Omega [s]."""
     ends = np.cumsum([_time_scale(phase, e) * phase.duration for phase in trace])
     grid = np.linspace(0.0, ends[-1], samples)
+    force_unit, length_unit = speed_unit * impedance_unit, speed_unit * time_unit
     blocks: list[Array] = []
-    repeated: list[int] = []  # columns that repeat the one before
-    event_columns: list[tuple[EventKind, int]] = []
+    events: list[tuple[EventKind, Array]] = []
     before, peak = None, 0.0
     for phase, start, end in zip(trace, np.append(0.0, ends[:-1]), ends, strict=True):
-        first = sum(block.shape[1] for block in blocks)
-        jumps = isinstance(phase.motion, ClosedPhase) and not (before and before.unloading)
-        # The end of a phase is the start of the next one. Events at a jump belong to the end.
-        event_columns += [(kind, first - jumps) for kind in _kinds(phase, before)]
-        if before and not jumps:
-            repeated.append(first)
         inside = grid[(grid > start) & (grid < end)]
         instants = np.concatenate([[start], inside, [end]])
         # A phase in unloading with a small e is so short that the difference of its ends would have
@@ -81,24 +75,38 @@ def timeline(
             peak = normal[-1]
         # On the line of unloading u = u_max - e^2 (N_max - N).
         compression = peak - e * e * (peak - normal) if phase.unloading else normal
-        approach = time_scale * state.approach
-        blocks.append(
-            np.stack([instants, normal, state.friction, state.velocity, approach, compression])
+        block = np.stack(
+            [
+                instants * time_unit,
+                normal * force_unit,
+                state.friction * force_unit,
+                state.velocity * speed_unit,
+                time_scale * state.approach * speed_unit,
+                compression * length_unit,
+                zeta2 * state.friction * length_unit,
+            ]
         )
+        first = block[:, 0]
+        if before and isinstance(phase.motion, ClosedPhase) and not before.unloading:
+            first = blocks[-1][:, -1]  # the force jumps, after the events
+        elif before:
+            blocks[-1] = blocks[-1][:, :-1]  # the end of a phase is the start of the next one
+        events += [(kind, first) for kind in _kinds(phase, before)]
+        blocks.append(block)
         before = phase
-    columns = np.concatenate(blocks, axis=1)
-    last = columns.shape[1] - 1
+    last = blocks[-1][:, -1]
     if not trace[-1].unloading:
-        event_columns.append((EventKind.MAXIMUM_COMPRESSION, last))
-    event_columns.append((EventKind.SEPARATION, last))
-    force_unit, length_unit = speed_unit * impedance_unit, speed_unit * time_unit
-    units = [time_unit, *[force_unit] * 2, *[speed_unit] * 2, *[length_unit] * 2]
-    columns = np.vstack([columns, zeta2 * columns[2]]) * np.array(units)[:, None]
-    events = tuple(
-        Event(kind, *(float(columns[row, column]) for row in (0, 1, 2, 3, 6)))
-        for kind, column in event_columns
+        events.append((EventKind.MAXIMUM_COMPRESSION, last))
+    events.append((EventKind.SEPARATION, last))
+    return NoncollinearHistory._make(
+        [*np.concatenate(blocks, axis=1), tuple(_event(kind, state) for kind, state in events)]
     )
-    return NoncollinearHistory._make([*np.delete(columns, repeated, axis=1), events])
+
+
+def _event(kind: EventKind, state: Array) -> Event:
+    """An event, from its state in the order of `NoncollinearHistory`."""
+    time, normal_force, friction, tangential, _, _, spring = map(float, state)
+    return Event(kind, time, normal_force, friction, tangential, spring)
 
 
 def _time_scale(phase: Phase, e: float) -> float:
@@ -112,10 +120,8 @@ def _kinds(phase: Phase, before: Phase | None) -> list[EventKind]:
     if before is None:
         return [EventKind.CONTACT, kind]
     kinds = []
-    if phase.unloading and not before.unloading:
-        kinds.append(EventKind.MAXIMUM_COMPRESSION)
-    if before.unloading and not phase.unloading:
-        kinds.append(EventKind.RELOADING)
+    if phase.unloading != before.unloading:
+        kinds.append(EventKind.MAXIMUM_COMPRESSION if phase.unloading else EventKind.RELOADING)
     if kind != _kind(before):
         kinds.append(kind)
     return kinds

@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from planarimpact import bodies
-from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, mechanics, methods, model_form
+from planarimpact.collision import (
+    PLASTIC,
+    RESTITUTION_FROM,
+    TOLERANCE,
+    VISCOUS,
+    mechanics,
+    methods,
+    model_form,
+)
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.common.checks import ConvergenceError, InputError
@@ -159,7 +167,7 @@ class Solver:
         self._known += known.size
         self._squares += float(np.sum(known**2))
         self._largest = max(self._largest, float(np.max(known, initial=0.0)))
-        coupling = rows.coupling[place >= methods.FIRST_OF_CONTINUA]
+        coupling = rows.coupling[methods.IS_CONTINUUM[place]]
         large = coupling[coupling > bodies.COUPLING]
         self._coupled += large.size
         self._largest_coupling = max(self._largest_coupling, float(np.max(large, initial=0.0)))
@@ -204,7 +212,9 @@ def _result(
     if "restitution" not in names:
         result |= {"restitution": impacts.restitution}
     if "loss" not in names:
-        code = np.where(impacts.restitution < 1, impacts.plastic, -1)
+        viscous, plastic = (columns.LOSSES.index(loss) for loss in (VISCOUS, PLASTIC))
+        code = np.where(impacts.plastic, plastic, viscous)
+        code[impacts.restitution == 1] = -1  # none
         result |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
     models = list(dict.fromkeys(method.model for method in methods.METHODS))
     model = np.array([models.index(method.model) for method in methods.METHODS])[answers.place]

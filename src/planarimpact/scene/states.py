@@ -11,7 +11,7 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.bodies import Body, Material
-from planarimpact.collision import LOSSES, RESTITUTION_FROM, Pair, mechanics
+from planarimpact.collision import LOSSES, PLASTIC, RESTITUTION_FROM, Pair, mechanics
 from planarimpact.collision.mechanics import Impacts, State
 from planarimpact.common.arrays import LARGEST, Array
 from planarimpact.scene.columns import AXES, PLANE
@@ -54,7 +54,7 @@ def _peak_normal(impacts: Impacts, modulus: Array, radius: Array) -> Array:
     speed = np.where(approaches, impacts.v2, 1.0)
     peak = np.full(speed.size, np.nan)
     for name in LOSSES:
-        which = known & (impacts.plastic == (name == "plastic"))
+        which = known & (impacts.plastic == (name == PLASTIC))
         if which.any():
             # All impacts are computed, so that a refusal has the index of its row.
             e = np.where(which, impacts.restitution, 1.0)

@@ -4,7 +4,7 @@ The table has the rebound of elastic, viscous and plastic spheres, as `planarimp
 solves it, for every incidence, restitution from 0.3 to 1, and mass over stiffness ratio from 1.5625
 to 3.5. Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's ratio from 0 to 1/2
 (stiffness ratio 1 to 1.5) are among them, and so is whatever lies between, such as discs (3).
-`thresholds` and `making` made it, `table` evaluates it.
+`table` evaluates it.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
 """The table: how it divides the impacts, and how it is read and evaluated.
 
-In y = x/zeta^2, b = beta/zeta^2 and e the answer is smooth between edges, see `thresholds`. A panel
+In y = x/zeta^2, b = beta/zeta^2 and e the answer is smooth between edges, where it bends. A panel
 is a loss, or a part of it, with the same edges throughout. Its impacts are mapped to t and u, from
 0 to 1 over e and b, and s, from 0 to 1 between two edges. That is a patch. In a patch velocity,
 peak friction and work are cubic splines in s, t and u: sums of products of uniform B-splines. In
@@ -113,30 +113,18 @@ def laws() -> list[str]:
 
 
 def read(file: IO[bytes]) -> Table:
-    """Read a table that `write` wrote; one of other laws is refused."""
+    """Read a table of this package; one that was made from other laws is refused."""
     with np.load(file) as arrays:
         if (made := arrays.get("laws", np.empty(0)).tolist()) != laws():
             words = f"table of spheres: it was made from laws with {made}; allowed are {laws()}, or"
-            raise checks.InputError(f"{words} a new one: python -m planarimpact.spheres.making")
+            raise checks.InputError(
+                f"{words} a new one, made by tests/package_tables/spheres_tables.py"
+            )
         exponent, panels = int(arrays["exponent"]), {}
         for name in ROOTS:
             packed = (real(_summed(arrays[f"{name}.{key}"]), exponent) for key in PACKED)
             panels[name] = Panel(name, arrays[f"{name}.intervals"], *packed)
         return Table(exponent, arrays["limits"], panels)
-
-
-def write(file: IO[bytes], table: Table) -> None:
-    """Write a table, compressed: numbers are stored as `steps` of whole numbers."""
-    arrays: dict[str, Any] = {"exponent": table.exponent, "limits": table.limits, "laws": laws()}
-    for name, panel in table.panels.items():
-        arrays[f"{name}.intervals"] = panel.intervals
-        for key in PACKED:
-            difference = steps(whole(getattr(panel, key), table.exponent))
-            # The low bytes side by side, then the others: similar bytes compress well.
-            arrays[f"{name}.{key}"] = np.moveaxis(
-                difference.astype("<i4")[..., None].view(np.uint8), -1, 0
-            )
-    np.savez_compressed(file, **arrays)
 
 
 def whole(values: Array, exponent: int) -> Integers:

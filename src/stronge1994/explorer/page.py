@@ -31,22 +31,6 @@ LIMITS = {
 }
 # The controls that a figure of the paper sets; the others are as the page opens.
 OF_FIGURES = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]
-# Scripts of the page, each after those that it uses.
-SCRIPTS = [
-    "solver",
-    "continuum",
-    "models",
-    "flight",
-    "charts",
-    "arrows",
-    "patch",
-    "diagram",
-    "lens",
-    "stage",
-    "words",
-    "files",
-    "page",
-]
 # Largest error of the continuum of the page, in mu v2(0) and in the largest normal force.
 CONTINUUM_ERROR = 0.01
 CURVE_ERROR = 0.03  # of its curves over all incidences, which take fewer steps
@@ -132,7 +116,6 @@ def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[
         bodies={name: round(float(bodies.mass_ratio(body)), 12) for name, body in BODIES.items()},
         materials=balls(str(texts["materials.yaml"])),
         sources=texts,
-        scripts=SCRIPTS,
         error=CONTINUUM_ERROR,
         curve_error=CURVE_ERROR,
         least_restitution=continuum.LEAST_RESTITUTION,

@@ -118,6 +118,7 @@ def _distances(
         [table[pair].to_numpy(float) for pair in pairs] for table in (points, chosen)
     )
     rows_of, find = _rows_by_labels(chosen, labels), _FROM_POINTS[comparison.metric]
+    curve_of = chosen[["curve"]]  # a row of all columns takes longer to pick
     parts: list[tuple[Array, *Distances, Array]] = []
     columns: list[str] = []
     names: list[str] = []
@@ -125,7 +126,7 @@ def _distances(
         wanted = dict(zip(labels, values, strict=True))
         if values not in rows_of:
             raise tables.no_curve(curves, fixed | wanted | comparison.curve)
-        of = tables.only_curve(chosen.take(rows_of[values]))
+        of = tables.only_curve(curve_of.take(rows_of[values]))
         for (_, y), places, lines, sigma in zip(pairs, of_points, of_curves, sigmas, strict=True):
             line = lines[rows_of[values]]
             line, there = line[~np.isnan(line[:, 1])], ~np.isnan(places[at, 1])

@@ -4,7 +4,8 @@ A table of curves that cannot be read is an error. What cannot be compared in it
 reason in `note`.
 """
 
-from collections.abc import Mapping, Sequence
+import functools
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -44,12 +45,16 @@ def compare(
     """
     curves = read(path)
     every = [Comparison.of(title, entry, references) for title, entry in comparisons.items()]
-    return [
-        dict.fromkeys(COLUMNS, "")
-        | {"figure": name}
-        | _row(one, curves, significance, settings, scales.sharing(one, every, settings))
-        for one in every
-    ]
+
+    @functools.cache  # one fit for all that share a scale
+    def of_scale(scale: str) -> dict[str, Measured]:
+        return scales.measure(scales.sharing(scale, every, settings), curves)
+
+    def measured(one: Comparison) -> Measured:
+        return of_scale(one.scale)[one.name] if one.scale else measure(one, curves)
+
+    common = dict.fromkeys(COLUMNS, "") | {"figure": name}
+    return [common | _row(one, curves, significance, settings, measured) for one in every]
 
 
 def read(path: str) -> Table:
@@ -66,12 +71,9 @@ def _row(
     curves: Table,
     significance: float,
     settings: Mapping[str, Any],
-    sharing: Sequence[Comparison],
+    measured_by: Callable[[Comparison], Measured],
 ) -> VerdictRow:
-    """Cells of one comparison: what was measured, and the verdict on it.
-
-    `sharing` are all comparisons that share its scale.
-    """
+    """Cells of one comparison: what was measured, and the verdict on it."""
     reference, known = comparison.reference, comparison.differs
     cells: VerdictRow = {
         "comparison": comparison.name,
@@ -91,10 +93,7 @@ def _row(
     if known:
         cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
-        if comparison.scale:
-            measured = scales.measure(comparison, curves, sharing)
-        else:
-            measured = measure(comparison, curves)
+        measured = measured_by(comparison)
         verdict, numbers = _judged(comparison, measured, significance)
         if comparison.or_printed:
             printed = measure(comparison, as_printed(comparison, curves))

@@ -21,24 +21,26 @@ STEPS = 21  # of a first search, a sixth each, between which the minimum is foun
 
 
 def sharing(
-    comparison: Comparison, every: Iterable[Comparison], settings: Mapping[str, Any]
+    scale: str, every: Iterable[Comparison], settings: Mapping[str, Any]
 ) -> list[Comparison]:
-    """All comparisons that have its scale, and points for these settings."""
-    alike = (one for one in every if one.scale == comparison.scale != "")
+    """All comparisons that have this scale, and points for these settings."""
+    alike = (one for one in every if one.scale == scale)
     at_hand = (one for one in alike if getattr(one.reference, "path", None))
     return [one for one in at_hand if not one.other_settings(settings)]
 
 
-def measure(comparison: Comparison, curves: Table, together: Sequence[Comparison]) -> Measured:
-    """Distances of one of `together` from its curve with the best scale, and a note of it.
+def measure(together: Sequence[Comparison], curves: Table) -> dict[str, Measured]:
+    """Distances of comparisons from their curves with the best scale, and notes of it, by name.
 
     The factor costs one degree of freedom, which all bear by their numbers of points.
     """
     factor = fit(together, curves)
     found = [metrics.measure(one, scaled(one, curves, factor)) for one in together]
-    own = found[together.index(comparison)]
-    share = len(own.at) / sum(len(one.at) for one in found)
-    return own._replace(fitted=share, note=_note(comparison, curves, factor))
+    points = sum(len(own.at) for own in found)
+    return {
+        one.name: own._replace(fitted=len(own.at) / points, note=_note(one, curves, factor))
+        for one, own in zip(together, found, strict=True)
+    }
 
 
 def fit(together: Sequence[Comparison], curves: Table) -> float:

@@ -78,7 +78,8 @@ def run(notebook: str, table: str, templates: Mapping[str, str], made: Mapping[s
     """
     book, folder = nbformat.read(notebook, as_version=4), Path(notebook).parent
     texts = {made["student"]: nbformat.writes(student.notebook(book, folder)) + "\n"}
-    _execute(book, stated_numbers.read(table, book.cells), notebook)
+    cells = stated_numbers.with_checks(stated_numbers.read(table, book.cells))
+    _execute(book, cells, notebook)
     for cell in book.cells:
         if cell.cell_type == "markdown":
             cell.source = on_a_page(cell.source, Path(templates["page"]).parent)
@@ -121,9 +122,9 @@ def on_a_page(source: str, folder: Path) -> str:
     return source.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
 
 
-def _execute(book: Any, rows: Sequence[stated_numbers.Row], notebook: str) -> None:
-    """Run the cells of `book`, which then holds their outputs, and compare `rows` between them."""
-    whole = nbformat.NotebookNode(book, cells=stated_numbers.with_cells(book.cells, rows))
+def _execute(book: Any, cells: Sequence[Any], notebook: str) -> None:
+    """Run `cells`, those of `book` and others between; `book` then holds the outputs of its own."""
+    whole = nbformat.NotebookNode(book, cells=cells)
     with tempfile.TemporaryDirectory() as scratch:
         place = {"transport": "ipc", "connection_file": f"{scratch}/kernel.json"}
         client = NotebookClient(

@@ -3,7 +3,6 @@
 import re
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from markupsafe import Markup
@@ -171,12 +170,12 @@ def entry_of(row: Row, parts: Mapping[str, str], known: Collection[str]) -> dict
     }
 
 
-def page(rows: Sequence[Row], symbols: str, impacts: Mapping[str, Any], template: Path) -> str:
-    """The page of the ledger's rows, by a template beside the style that it includes.
+def page(rows: Sequence[Row], symbols: str, impacts: Mapping[str, Any]) -> str:
+    """The page of the ledger's rows.
 
     `symbols` explains their formulas; `impacts` are those that the explorer shows, by entry.
     """
-    environment = templates.environment(template.parent)
+    environment = templates.environment()
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
     style = STYLE | GRADE_STYLE | NATURE_STYLE
     found = Counter(row["verdict"] for row in rows)
@@ -184,7 +183,7 @@ def page(rows: Sequence[Row], symbols: str, impacts: Mapping[str, Any], template
     known = common(rows, parts)
     entries = [entry_of(row, parts, known) for row in rows]
     causes = by_cause(rows)
-    return environment.get_template(template.name).render(
+    return environment.get_template("ledger.html").render(
         entries=entries,
         symbols=symbols,
         common=known,

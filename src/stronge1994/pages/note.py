@@ -4,7 +4,6 @@ Every number that a run computes is one of the key numbers.
 """
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 from stronge1994.figure_table import FigureRow
 from stronge1994.names import is_of_paper
@@ -37,12 +36,11 @@ def page(
     numbers: Mapping[str, float],
     table: Sequence[FigureRow],
     pictures: Mapping[str, bytes],
-    template: Path,
 ) -> str:
     """The note as a page, from key numbers, the table for a reader, and SVG by their figures."""
-    environment = templates.environment(template.parent)
+    environment = templates.environment()
     environment.filters |= {"probability": probability, "count": count}
-    return environment.get_template(template.name).render(
+    return environment.get_template("note.html").render(
         n=numbers,
         figures=[row for row in table if is_of_paper(row.figure)],
         pictures={name: templates.embedded(svg) for name, svg in pictures.items()},

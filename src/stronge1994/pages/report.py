@@ -48,10 +48,10 @@ TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
 SECTIONS = ("which_model", "trade")
 
 
-def page(values: TemplateValues, template: Path) -> str:
+def page(values: TemplateValues) -> str:
     """The report, from `values` as `write` makes them."""
     verdicts, entries = values["verdicts"], {row["entry"] for row in values["ledger"]}
-    environment = templates.environment(template.parent)
+    environment = templates.environment()
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
         "numbers": numbers,
@@ -60,7 +60,7 @@ def page(values: TemplateValues, template: Path) -> str:
     }
     environment.tests["in_paper"] = is_of_paper
     table = values["table"]
-    return environment.get_template(template.name).render(
+    return environment.get_template("report.html").render(
         values,
         lapsed=outcome.failing(values["ledger"]),
         grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
@@ -195,14 +195,14 @@ def write(
         name: figure(name, picture, captions[name], residuals[name], shown, name in slides)
         for name, picture in pictures.items()
     }
-    folder, run = templates.SHARED, versions.of_run(given.versions)
+    run = versions.of_run(given.versions)
     values = {
         "verdicts": shown,
         "table": table,
         "ledger": ledger,
         "figures": figures,
         "captions": {
-            name: (folder / f"{name}.rst").read_text("utf-8").strip() for name in SECTIONS
+            name: (templates.SHARED / f"{name}.rst").read_text("utf-8").strip() for name in SECTIONS
         },
         "cases": which_model.cases(answers, trade),
         "n": numbers,
@@ -211,10 +211,10 @@ def write(
         "faults": gate.faults(verdicts, ledger, rows, entries),
     }
     pages = {
-        made.report: page(values, folder / "report.html"),
-        made.sources: sources_page.page(sources, config, run, folder / "sources.html"),
-        made.note: note.page(numbers, table, pictures, folder / "note.html"),
-        made.ledger: ledger_page.page(ledger, symbols, impacts, folder / "ledger.html"),
+        made.report: page(values),
+        made.sources: sources_page.page(sources, config, run),
+        made.note: note.page(numbers, table, pictures),
+        made.ledger: ledger_page.page(ledger, symbols, impacts),
     }
     for path, text in pages.items():
         Path(path).write_text(text, encoding="utf-8")

@@ -22,7 +22,7 @@ def write(folder: str, pages: Iterable[str], texts: Iterable[str]) -> None:
         else:
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(path, copy)
-    page = templates.environment(templates.SHARED).get_template("index.html")
+    page = templates.environment().get_template("index.html")
     text = page.render(interface="interface/planarimpact.html")
     (site / "index.html").write_text(text, encoding="utf-8")
     for text in texts:

@@ -3,17 +3,15 @@
 import json
 from collections import Counter
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import yaml
 
 from stronge1994.pages import templates
+from stronge1994.settings.config import SHARED
 
 # Kinds of reference data, in the order in which their sources stand; facts are stated.
 KINDS = ("measured", "digitised", "stated", "computed", "awaited")
-# Settings that all figures share.
-SHARED = ("mass_ratio", "stiffness_ratio", "significance")
 
 
 def kinds(source: Mapping[str, Any]) -> list[str]:
@@ -40,12 +38,7 @@ def by_kind(sources: Mapping[str, Any]) -> dict[str, Any]:
     return {name: sources[name] for name in sorted(sources, key=rank)}
 
 
-def page(
-    sources: Mapping[str, Any],
-    config: Mapping[str, Any],
-    run: Mapping[str, Any],
-    template: Path,
-) -> str:
+def page(sources: Mapping[str, Any], config: Mapping[str, Any], run: Mapping[str, Any]) -> str:
     """The page of sources and settings, from data/*/source.yaml and the config of the run."""
     comparisons = config["comparisons"].items()
     settings = {
@@ -53,12 +46,13 @@ def page(
         | {"comparisons": {name: c for name, c in comparisons if c["figure"] == figure}}
         for figure, entry in config["figures"].items()
     }
-    environment = templates.environment(template.parent)
-    return environment.get_template(template.name).render(
+    environment = templates.environment()
+    environment.filters["in_yaml"] = in_yaml
+    return environment.get_template("sources.html").render(
         sources=by_kind(sources),
         choices={"kind": ("Kind", KINDS)},
         counts=Counter(kind for source in sources.values() for kind in kinds(source)),
-        shared={key: config[key] for key in SHARED},
+        shared={key: config[key] for key in (*SHARED, "significance")},
         settings={figure: in_yaml(part) for figure, part in settings.items()},
         run=run,
     )

@@ -46,31 +46,29 @@ def numbers(words: str) -> list[tuple[float, float]]:
     return found
 
 
-def read(path: str | Path, cells: Sequence[Any]) -> list[Row]:
-    """The rows of a table; a `SourceError` names the first that cannot be compared, and its file.
+def read(path: str | Path, cells: Sequence[Any]) -> list[tuple[Any, list[Row]]]:
+    """The cells of a lecture, each with the rows that a table has of its text.
 
-    `cells` are those of the lecture. What a row quotes must stand in the cell that it names.
+    What a row quotes must stand in the cell that it names. A `SourceError` names the first row that
+    cannot be compared, and its file.
     """
     table = load_yaml(path)
     rows = table.get("numbers")
     if set(table) != {"numbers"} or not isinstance(rows, list):
         raise SourceError(f"{path}: allowed is one key, numbers, with a list of rows")
+    texts = {cell.get("id"): " ".join(cell.source.split()) for cell in cells}
     for number, row in enumerate(rows, 1):
-        fault = _fault(row) if isinstance(row, dict) else "a row has keys, such as cell and says"
-        if fault:
-            name = row.get("cell") if isinstance(row, dict) else None
-            raise SourceError(f"{path}: {name or f'row {number}'}: {fault}")
-    try:
-        with_checks(cells, rows)
-    except ValueError as error:
-        raise SourceError(f"{path}: {error}") from None
-    return rows
+        if not isinstance(row, dict):
+            raise SourceError(f"{path}: row {number}: a row has keys, such as cell and says")
+        if fault := _fault(row, texts):
+            raise SourceError(f"{path}: {row.get('cell', f'row {number}')}: {fault}")
+    return [(cell, [row for row in rows if row["cell"] == cell.get("id")]) for cell in cells]
 
 
-def _fault(row: Mapping[str, Any]) -> str:
-    """What is wrong with a row, or nothing.
+def _fault(row: Mapping[str, Any], texts: Mapping[str, str]) -> str:
+    """What is wrong with a row on one of some texts, or nothing.
 
-    >>> _fault({"cell": "path", "says": "often", "gives": "b"})
+    >>> _fault({"cell": "path", "says": "often", "gives": "b"}, {"path": "It is often b."})
     "'often' has no number: holds belongs here"
     """
     for key, value in row.items():
@@ -83,27 +81,17 @@ def _fault(row: Mapping[str, Any]) -> str:
         return f"no {min(missing)}" if missing else "either gives or holds belongs here"
     if "gives" in row and not numbers(row["says"]):
         return f"{row['says']!r} has no number: holds belongs here"
+    if row["cell"] not in texts:
+        return "the lecture has no such cell"
+    if " ".join(row["says"].split()) not in texts[row["cell"]]:
+        return f"the cell does not say {row['says']!r}"
     return ""
 
 
-def with_checks(cells: Sequence[Any], rows: Sequence[Row]) -> list[tuple[Any, list[Row]]]:
-    """Each cell with the rows of its text.
-
-    A ValueError names a row whose cell or words are not in the lecture.
-    """
-    texts = {cell.get("id"): " ".join(cell.source.split()) for cell in cells}
-    for row in rows:
-        if row["cell"] not in texts:
-            raise ValueError(f"{row['cell']}: the lecture has no such cell")
-        if " ".join(row["says"].split()) not in texts[row["cell"]]:
-            raise ValueError(f"{row['cell']}: the cell does not say {row['says']!r}")
-    return [(cell, [row for row in rows if row["cell"] == cell.get("id")]) for cell in cells]
-
-
-def with_cells(cells: Sequence[Any], rows: Sequence[Row]) -> list[Any]:
-    """The cells of a lecture, and below each text that has rows one that compares them."""
+def with_checks(texts: Sequence[tuple[Any, list[Row]]]) -> list[Any]:
+    """The cells of a lecture, as `read` gives them, and below each with rows one that compares."""
     both = []
-    for cell, own in with_checks(cells, rows):
+    for cell, own in texts:
         both.append(cell)
         if own:
             both.append(nbformat.v4.new_code_cell(CHECK.format([dict(row) for row in own])))

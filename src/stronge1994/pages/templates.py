@@ -36,10 +36,13 @@ FILTERS = {
 }
 
 
-def environment(folder: str | Path) -> jinja2.Environment:
-    """Environment for the templates of a folder, in which an unknown name is an error."""
+def environment(*folders: str | Path) -> jinja2.Environment:
+    """Environment for the templates of some folders and the shared ones.
+
+    In a template an unknown name is an error.
+    """
     made = jinja2.Environment(
-        loader=jinja2.FileSystemLoader([folder, SHARED]),
+        loader=jinja2.FileSystemLoader([*folders, SHARED]),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,

@@ -13,7 +13,7 @@ ERROR, BUILD = "max_velocity_with_kinks [mu v2(0)]", "build_time [s]"
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 TIME = re.compile(r"time_(\d+) \[s\]")
 # Columns that tell the settings of a model.
-SETTINGS = ("steps", "circles", "tolerance", "knots")
+SETTINGS = ("steps", "tolerance", "knots")
 # Nine of ten times of two runs differ by less than this share, where the rounds of one run often
 # agree to a few hundredths: the memory of another run lies elsewhere.
 BETWEEN_RUNS = 0.1

@@ -6,8 +6,6 @@ Eq. 21 has no root, the answer is nan. The instants at which slip begins come fr
 `lumped`, which meets Eqs 10, 21 and 23 (their roots are not in doubt; the ledger tests them).
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from planarimpact import lumped
@@ -15,13 +13,6 @@ from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from planarimpact.common.results import EventKind
 from stronge1994.printed import dissipation, dynamics, peak_force, slip
-
-
-class Instants(NamedTuple):
-    """Start of stick and of the slip that follows it, in units of 1/Omega."""
-
-    stick: float
-    slip: float
 
 
 def rebound(
@@ -74,8 +65,8 @@ def _solved(
     return (_stick_first if x <= zeta2 else _slip_first)(x, beta, zeta2, e, *instants)
 
 
-def _instants(x: float, beta: float, zeta2: float, e: float) -> Instants | None:
-    """Instants of the contact of the model, None where its first slip never ends."""
+def _instants(x: float, beta: float, zeta2: float, e: float) -> tuple[float, float] | None:
+    """Start of stick and of the slip that follows it, in 1/Omega; None where slip never ends."""
     events = lumped.history(x, beta, zeta2, e, samples=2).events
     stick = next((event.time for event in events if event.kind == EventKind.STICK), None)
     if stick is None:
@@ -83,7 +74,7 @@ def _instants(x: float, beta: float, zeta2: float, e: float) -> Instants | None:
     slips = [event.time for event in events if event.kind == EventKind.SLIP]
     # The paper has one slip after stick. If there is none, stick lasts to separation.
     after = next((time for time in slips if time > stick), 1 + e)
-    return Instants(np.pi / 2 * stick, np.pi / 2 * after)
+    return np.pi / 2 * stick, np.pi / 2 * after
 
 
 def _stick_first(

@@ -18,10 +18,9 @@ def eq_10a_force_ratio(
     >>> round(float(eq_10a_force_ratio(1e-9, 1.21, 1.21, 1.0, 1.7)), 9)
     1.0
     """
-    angle = normal_frequency * t1
-    return _force_over(
-        np.sin(angle), t1, incidence, stiffness_ratio, normal_frequency, tangential_frequency
-    )
+    swing = normal_frequency / tangential_frequency * np.sin(tangential_frequency * t1)
+    normal = np.sin(normal_frequency * t1)
+    return np.abs(incidence * swing / (stiffness_ratio * normal))
 
 
 def eq_10b_force_ratio(
@@ -37,21 +36,8 @@ def eq_10b_force_ratio(
     >>> round(float(eq_10b_force_ratio(np.pi / 2, 1.0, 1.0, 1.0, 1.0, 0.5)), 12)
     1.0
     """
-    angle = restitution_angle(t1, normal_frequency, restitution)
-    return _force_over(
-        np.sin(angle), t1, incidence, stiffness_ratio, normal_frequency, tangential_frequency
-    )
-
-
-def _force_over(
-    normal: Array,
-    t1: Numbers,
-    incidence: Numbers,
-    stiffness_ratio: Numbers,
-    normal_frequency: Numbers,
-    tangential_frequency: Numbers,
-) -> Array:
     swing = normal_frequency / tangential_frequency * np.sin(tangential_frequency * t1)
+    normal = np.sin(restitution_angle(t1, normal_frequency, restitution))
     return np.abs(incidence * swing / (stiffness_ratio * normal))
 
 

@@ -6,7 +6,6 @@ for each series; that of an awaited one may be missing, and has a head if it is 
 
 import copy
 import functools
-import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -166,15 +165,3 @@ def refuse_invalid(document: Any, schema: Schema, name: str | Path) -> None:
             allowed = f"; allowed are texts of {errors[0].validator_value} characters or more"
         message = checks.in_ascii(f"{where}: {errors[0].message}")
         raise SourceError(f"{name}: {message}{allowed}")
-    for where, value in _leaves(document):
-        if isinstance(value, float) and not math.isfinite(value):
-            raise SourceError(f"{name}: {where}: {value} is not a finite number")
-
-
-def _leaves(node: Any, where: str = "") -> Iterator[tuple[str, Any]]:
-    """Every value of a document with its dotted path."""
-    if isinstance(node, (dict, list)):
-        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
-            yield from _leaves(value, f"{where}.{key}" if where else f"{key}")
-    else:
-        yield where, node

@@ -4,6 +4,7 @@ PyYAML, of YAML 1.1, silently keeps the last of two equal keys, reads 010 as 8, 
 121, no as false, and takes 4e-1 for a text.
 """
 
+import math
 import re
 from typing import Any
 
@@ -14,15 +15,31 @@ NUMBERS = {
     "int": re.compile(r"[-+]?(0|[1-9][0-9]{0,17})"),
     "float": re.compile(r"[-+]?((0|[1-9][0-9]*)\.?[0-9]*|\.[0-9]+)(e[-+]?[0-9]+)?$", flags=re.I),
 }
-# What the schemas refuse.
-NOT_FINITE = (".inf", "-.inf", ".nan")
 # All other kinds of values: a date would be no text.
 KINDS = ("str", "bool", "null", "seq", "map", "merge")
+MERGE = "tag:yaml.org,2002:merge"
 _Fast: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # some installations lack it
 
 
 class Loader(_Fast):
     """A loader that knows the numbers of YAML 1.2: 4e-1 too."""
+
+    def flatten_mapping(self, node: yaml.MappingNode) -> None:
+        """Put merged keys into a mapping: its own ones win, then those of the first source.
+
+        Versions of PyYAML differ here: 6.0.4 takes the key of a source's source before its own.
+        """
+        known: dict[str, tuple[yaml.Node, yaml.Node]] = {}
+        own = {key.value: (key, value) for key, value in node.value if key.tag != MERGE}
+        for key, value in node.value:
+            if key.tag != MERGE:
+                continue
+            for source in value.value if isinstance(value, yaml.SequenceNode) else [value]:
+                if not isinstance(source, yaml.MappingNode):
+                    raise yaml.MarkedYAMLError(None, None, "<< needs a mapping", key.start_mark)
+                self.flatten_mapping(source)
+                known = {one[0].value: one for one in source.value} | known
+        node.value = list((known | own).values())
 
 
 Loader.add_implicit_resolver("tag:yaml.org,2002:float", NUMBERS["float"], [*"+-.0123456789"])
@@ -61,9 +78,10 @@ def _check(node: yaml.Node) -> None:
         raise ValueError(f"line {at.start_mark.line + 1}: {what}")
 
     kind = node.tag.rpartition(":")[2]
-    finite = node.value not in NOT_FINITE
-    if kind in NUMBERS and finite and not NUMBERS[kind].fullmatch(node.value):
+    if kind in NUMBERS and not NUMBERS[kind].fullmatch(node.value):
         refuse(f"{node.value[:60]!a} is no decimal number such as -0.05", node)
+    if kind in NUMBERS and not math.isfinite(float(node.value)):
+        refuse(f"{node.value[:60]!a} is too large", node)
     if kind not in (*NUMBERS, *KINDS):
         refuse(f"{str(node.value)[:60]!a} is a {kind}; a text has quotes around it", node)
     if kind == "bool" and node.value.lower() not in ("true", "false"):

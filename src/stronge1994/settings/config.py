@@ -187,11 +187,11 @@ def table_of(name: str) -> str:
 
 def reference(inventory: Inventory, name: str, where: str = "reference") -> Entry:
     """The series, which has a `kind`, or the fact that `source/entry` names."""
-    source, entry = name.split("/")
-    for kind in ("series", "facts"):
-        if entry in inventory.get(source, {}).get(kind, {}):
-            return inventory[source][kind][entry]
-    known = inventory.get(source, {})
-    there = [f"{source}/{one}" for kind in ("series", "facts") for one in known.get(kind, {})]
-    allowed = f"; allowed are {', '.join(there or inventory)}"
-    raise ConfigError(f"{where}: {name!a} is neither a series nor a fact in data/{allowed}")
+    source, _, entry = name.partition("/")
+    stated = inventory.get(source, {})
+    known = stated.get("series", {}) | stated.get("facts", {})
+    if entry in known:
+        return known[entry]
+    allowed = ", ".join([f"{source}/{one}" for one in known] or inventory)
+    problem = f"{name!a} is neither a series nor a fact in data/; allowed are {allowed}"
+    raise ConfigError(f"{where}: {problem}")

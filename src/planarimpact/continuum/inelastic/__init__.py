@@ -25,16 +25,12 @@ from planarimpact.common.results import Regime
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.motion import MOST_STEPS, NormalMotion, places
-from planarimpact.continuum.inelastic.plastic import ElasticInShear, PlasticMotion
+from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from planarimpact.continuum.inelastic.viscous import ViscousMotion
 from planarimpact.continuum.refinement import Solved
 
-# The normal motion and the springs, by what takes the energy; the last one for comparison alone.
-MOTIONS: dict[str, type[NormalMotion]] = {
-    "viscous": ViscousMotion,
-    "plastic": PlasticMotion,
-    "plastic-elastic-shear": ElasticInShear,
-}
+# The normal motion and the springs, by what takes the energy.
+MOTIONS: dict[str, type[NormalMotion]] = {"viscous": ViscousMotion, "plastic": PlasticMotion}
 # Friction within this share of its limit is gross slip. Near separation less stick than that cannot
 # be told from rounding.
 GROSS = 1 - 1e-6
@@ -129,7 +125,7 @@ def path(
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
     >>> [path(*groups, kind, 128).velocity[-1].round(3) for kind in MOTIONS.values()]
-    [array([-0.482]), array([-0.185]), array([-0.414])]
+    [array([-0.482]), array([-0.185])]
     """
     motion, column = kind(e), np.arange(x.size)
     # Gross slip from the start ends at this normal velocity, at once for x <= zeta^2.

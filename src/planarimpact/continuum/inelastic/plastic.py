@@ -49,7 +49,7 @@ class PlasticMotion(NormalMotion):
     """
 
     dashpots = False
-    # Factor of the flow in shear.
+    # Factor of the flow in shear; 0 is Thornton's own sphere, which forgets no shear.
     flows = law.FLOW
 
     def __init__(self, restitution: Array) -> None:
@@ -222,12 +222,6 @@ class PlasticMotion(NormalMotion):
         in_loading = beta - v * (beta - zeta2 * loading.pull(depth, self.flows)[0])
         limit[sticks] = np.maximum(limit[sticks], in_loading)
         return limit
-
-
-class ElasticInShear(PlasticMotion):
-    """Thornton's own sphere, which forgets no shear while it yields."""
-
-    flows = 0.0
 
 
 class PlasticSprings(Springs):

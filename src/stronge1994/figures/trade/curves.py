@@ -39,7 +39,6 @@ def curves(
     restitution: Sequence[float],
     tolerance: float,
     steps: Sequence[int],
-    circles: Sequence[int],
     tolerances: Sequence[float],
     inelastic: Mapping[str, Any],
     batches: Sequence[int],
@@ -47,11 +46,11 @@ def curves(
 ) -> Table:
     """Errors and times of every model that admits a restitution, a curve of one point each.
 
-    The parameters of a curve are the settings of its model (the number of `steps`, `circles` or
-    `knots`, or the `tolerance` in mu v2(0)), the restitution, and the `loss` of the reference. For
-    e = 1 the errors are those against the elastic continuum. For e < 1 every model is measured
-    twice, against the viscous and against the plastic continuum. So the error of the other
-    continuum is what the wrong loss costs. `rms_...` and `max_...` are over `samples` evenly spaced
+    The parameters of a curve are the settings of its model (the number of `steps` or `knots`, or
+    the `tolerance` in mu v2(0)), the restitution, and the `loss` of the reference. For e = 1 the
+    errors are those against the elastic continuum. For e < 1 every model is measured twice, against
+    the viscous and against the plastic continuum. So the error of the other continuum is what the
+    wrong loss costs. `rms_...` and `max_...` are over `samples` evenly spaced
     incidences, and `max_velocity_with_kinks` is over those of `at_kinks` besides. `seen` is the
     share of incidences where the error of the model is larger than the spread of the reference
     under uncertain inputs, see `input_spread`; `input_spread_stick` is over those incidences that
@@ -59,7 +58,7 @@ def curves(
     for one pair of bodies, and measured for e = 1 alone. Times are as in `times`.
 
     >>> inelastic = {"tolerance": 1e-2, "tolerances": [1e-2]}
-    >>> table = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [4], [1], inelastic, [1], 1.0)
+    >>> table = curves(3.5, 1.21, [0, 8], 9, [0.8], 1, [16], [1], inelastic, [1], 1.0)
     >>> table["curve"].tolist()[2:4]
     ['laws.brach, e = 0.8, viscous', 'lumped.hysteretic, e = 0.8, viscous']
     >>> wrong = tables.select(table, model="continuum.plastic", loss="viscous")
@@ -74,7 +73,7 @@ def curves(
         accuracy, wanted = tolerance, tolerances
         if e < 1:
             accuracy, wanted = inelastic["tolerance"], inelastic["tolerances"]
-        tried = {"steps": steps, "circles": circles, "tolerance": wanted}
+        tried = {"steps": steps, "tolerance": wanted}
         contenders = list(_contenders(groups, tried, incidence[1]))
         found = [contender.rebound(x) for contender in contenders]
         seconds = times([stopwatch(c.rebound) for c in contenders], incidence, batches, budget)
@@ -187,7 +186,7 @@ def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: str
     >>> float(reference(np.array([8.0]), groups, 1e-3, "plastic").velocity[0])
     2.75
     """
-    name = models.reference(groups["restitution"], loss or continuum.LOSSES[0])
+    name = models.reference(groups["restitution"], loss or continuum.VISCOUS)
     return models.rebound(name, x, **groups, tolerance=tolerance)
 
 
@@ -202,7 +201,7 @@ def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
     >>> input_spread(np.array([8.0]), groups, "").round(2)
     array([0.7])
     """
-    loss = loss or continuum.LOSSES[0]
+    loss = loss or continuum.VISCOUS
     lowest = groups | {"restitution": groups["restitution"] - 2 * models.RESTITUTION_ERROR}
     if models.admits(models.get(f"spheres.{loss}"), **lowest):
         return models.input_spread(f"spheres.{loss}", x, **groups)

@@ -55,7 +55,6 @@ MARKS = {
     "timestep.linear": _mark("linear spring, in steps", "s", BLACK, filled=False),
     "timestep.mindlin": _mark("Mindlin, in steps", "^", BLACK),
     "timestep.mindlin_rescaled": _mark("Mindlin, rescaled", "v", BLACK, filled=False),
-    "annuli": _mark("annuli", "h", ELASTIC),
     "continuum": _mark("continuum", "o", ELASTIC, filled=False),
     "continuum.viscous": _mark("continuum, viscous", "o", VISCOUS),
     "continuum.plastic": _mark("continuum, plastic", "o", PLASTIC, filled=False),
@@ -63,7 +62,7 @@ MARKS = {
     "pooltool": _mark("pooltool", "p", OTHER),
 }
 # These models have a line against the size of batch. The lines of the others would lie beside them.
-GROWTH = ("laws.brach", "lumped", "timestep.mindlin", "continuum", "annuli", SPLINE)
+GROWTH = ("laws.brach", "lumped", "timestep.mindlin", "continuum", SPLINE)
 
 
 def draw(curves: Table, settings: Settings, points: Points) -> Figure:
@@ -102,7 +101,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     figure.suptitle(f"(a) to (c): {batch} impacts together", fontsize=house_style.NOTE)
     styles = {str(style["label"]): style for style in MARKS.values()}
     keys = [house_style.key(**style) for style in styles.values()] + [Patch(**HIDDEN)]
-    house_style.legend_below(figure, keys[:10], keys[10:])
+    house_style.legend_below(figure, keys[:9], keys[9:])
     return figure
 
 
@@ -124,12 +123,12 @@ def _draw_errors(axes: Axes, rows: Table, time: str, numbers: bool) -> None:
 
 
 def _number(row: Mapping[str, Any]) -> str:
-    """The number of steps, circles or knots, or the tolerance; two laws of Mindlin need it once.
+    """The number of steps or knots, or the tolerance; two laws of Mindlin need it once.
 
     >>> _number({"model": "continuum", "tolerance": 1e-3})
     '$10^{-3}$'
     """
-    settings = {key: row.get(key, np.nan) for key in ("tolerance", "circles", "knots", "steps")}
+    settings = {key: row.get(key, np.nan) for key in ("tolerance", "knots", "steps")}
     known = {key: value for key, value in settings.items() if value > 0}
     if "tolerance" in known:
         return f"$10^{{{np.log10(known['tolerance']):.3g}}}$"
@@ -149,8 +148,9 @@ def _draw_others(axes: Axes, rows: Table, time: str, others: Table) -> None:
 
 def _draw_growth(axes: Axes, rows: Table, batches: Sequence[int]) -> None:
     """Draw time against the size of batch, with the finest setting of each model."""
-    for model, dashes in zip(GROWTH, ("-", *house_style.DASHES), strict=True):
-        finest = rows[rows["model"] == model].tail(1)
+    for model, dashes in zip(GROWTH, house_style.DASHES, strict=True):
+        own = rows[rows["model"] == model]
+        finest = own.sort_values(["steps", "tolerance"], ascending=[True, False]).tail(1)
         columns = [f"time_{batch} [s]" for batch in batches]
         for _, row in finest.reindex(columns=columns).iterrows():
             style = MARKS[model] | {"linestyle": dashes, "linewidth": 0.9}

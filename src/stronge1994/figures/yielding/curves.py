@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from planarimpact import continuum
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.continuum import inelastic
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from stronge1994 import names, tables
 from stronge1994.figures.shared.curves import curves_below_one
@@ -74,11 +74,17 @@ def curves(
     return tables.join(parts)
 
 
+class ElasticInShear(PlasticMotion):
+    """Thornton's own sphere, which forgets no shear while it yields: for comparison alone."""
+
+    flows = 0.0
+
+
 def _velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
     if model == ELASTIC_IN_SHEAR:
-        return continuum.rebound(
-            *groups, tolerance=tolerance, loss="plastic-elastic-shear"
-        ).velocity
+        x, beta, zeta2, e = np.broadcast_arrays(*groups)
+        lossy, allowed = np.minimum(e, ALMOST_ELASTIC), np.full(x.size, tolerance)
+        return inelastic.rebound(x, beta, zeta2, lossy, allowed, ElasticInShear)[0]
     return curves_below_one.rebound(model, tolerance, *groups).velocity
 
 

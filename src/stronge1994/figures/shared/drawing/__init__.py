@@ -50,7 +50,6 @@ def references(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
 def _scatter(series: Series) -> Scatter:
     points, x, y = series.points(), series.x, series.ordinates[0]
     return Scatter(
-        series.name,
         series.is_published,
         points[x.name].to_numpy(),
         points[y.name].to_numpy(),

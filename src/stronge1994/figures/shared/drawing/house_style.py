@@ -53,7 +53,6 @@ class Scatter:
     `parameters` are those of its source.
     """
 
-    name: str
     is_published: bool
     x: Array
     y: Array

@@ -3,19 +3,22 @@
 Each patch has nodes evenly over s, t and u. The continuum is solved with a fixed number of steps
 and with twice as many, and extrapolated: then neighbours have neighbouring errors.
 
-`python -m planarimpact.spheres.making` makes both tables of the package anew, in some minutes.
+    python -m tests.package_tables.spheres_tables
+
+makes both tables of `src/planarimpact/spheres` anew, in some minutes.
 """
 
 from pathlib import Path
-from typing import NamedTuple
+from typing import IO, Any, NamedTuple
 
 import numpy as np
 
 from planarimpact import continuum
 from planarimpact.common.arrays import Array
 from planarimpact.continuum import inelastic
-from planarimpact.spheres import table, thresholds
+from planarimpact.spheres import table
 from planarimpact.spheres.table import EVEN, LEFT, RIGHT, ROOTS, Panel, Table
+from tests.package_tables import spheres_thresholds
 
 # Steps of the continuum, and impacts solved together.
 STEPS, TOGETHER = 128, 256
@@ -78,7 +81,7 @@ PLANS = {
 def make(name: str = "fine") -> Table:
     """Make a table, one of `PLANS`; the fine one takes some minutes."""
     plan = PLANS[name]
-    limits = thresholds.limits(b_at(np.linspace(0.0, 1.0, plan.edges[1] + 1)))
+    limits = spheres_thresholds.limits(b_at(np.linspace(0.0, 1.0, plan.edges[1] + 1)))
     panels = {}
     for panel, (over_s, *_) in plan.nodes.items():
         edges = edges_over(panel, plan, limits)
@@ -131,11 +134,14 @@ def edges_over(name: str, plan: Plan, limits: Array) -> Array:
     e = e_at(name, t, limits[:, None]).ravel()
     if name == "viscous":
         e = np.minimum(e, VISCOUS)
-        edges = [thresholds.friction_falls(b, e), thresholds.lasts_to_largest_force(b, e)]
+        edges = [
+            spheres_thresholds.friction_falls(b, e),
+            spheres_thresholds.lasts_to_largest_force(b, e),
+        ]
     else:
-        edges = [] if name == "plastic_high" else [thresholds.slides_at_the_end(b, e)]
+        edges = [] if name == "plastic_high" else [spheres_thresholds.slides_at_the_end(b, e)]
         if name == "plastic_low":
-            edges.append(thresholds.slides_from(b, e))
+            edges.append(spheres_thresholds.slides_from(b, e))
     return _rounded(np.reshape(edges, (len(edges), *t.shape)), plan.exponent)
 
 
@@ -217,7 +223,25 @@ def splined(values: Array) -> Array:
     return values
 
 
+def write(file: IO[bytes], made: Table) -> None:
+    """Write a table, compressed: numbers are stored as `steps` of whole numbers."""
+    arrays: dict[str, Any] = {
+        "exponent": made.exponent,
+        "limits": made.limits,
+        "laws": table.laws(),
+    }
+    for name, panel in made.panels.items():
+        arrays[f"{name}.intervals"] = panel.intervals
+        for key in table.PACKED:
+            difference = table.steps(table.whole(getattr(panel, key), made.exponent))
+            # The low bytes side by side, then the others: similar bytes compress well.
+            arrays[f"{name}.{key}"] = np.moveaxis(
+                difference.astype("<i4")[..., None].view(np.uint8), -1, 0
+            )
+    np.savez_compressed(file, **arrays)
+
+
 if __name__ == "__main__":
     for name in PLANS:
-        with open(Path(__file__).with_name(f"{name}.npz"), "wb") as file:
-            table.write(file, make(name))
+        with open(Path(table.__file__).with_name(f"{name}.npz"), "wb") as file:
+            write(file, make(name))
