@@ -112,9 +112,9 @@ RIGHT = {NORMAL: 0.876 + 0.004 * np.tile([1, -1, 0], 3), FRICTION: 0.876}
         (RIGHT, {}, "cannot tell, cannot tell, cannot tell"),
         # A factor explains most of a shift of a force, in N.
         ({NORMAL: 1.0}, {NORMAL: -7.0}, "cannot tell"),
-        ({FRICTION: 1.0}, {FRICTION: 1.6}, "cannot tell"),
+        ({FRICTION: 1.0}, {FRICTION: 1.6}, "agrees"),
         # The allowances hide what two factors of 1 and 1.15 mean, and show those of 1 and 2.
-        ({NORMAL: 1.0, FRICTION: 1.15}, {}, "cannot tell, cannot tell, cannot tell"),
+        ({NORMAL: 1.0, FRICTION: 1.15}, {}, "cannot tell, agrees, cannot tell"),
         ({NORMAL: 1.0, FRICTION: 2.0}, {}, "cannot tell, agrees, FAILS"),
         # No factor explains another power of the cosine, or another friction.
         ({NORMAL: 0.0}, {NORMAL: 82.0 - 0.91 * X}, "cannot tell"),  # a straight line

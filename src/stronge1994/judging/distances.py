@@ -82,9 +82,9 @@ def _continued(line: Array) -> Array:
 
 
 def _along(gap: Array, across: Array, above: float) -> tuple[float, Array]:
-    """A distance with the sign of `above`, and its direction: `across` if there is none."""
+    """A distance with the sign of `above`, and its direction: `across` if it is 0 or infinite."""
     size = float(np.hypot(*gap))
-    if size > 1e-9:
+    if 1e-9 < size < math.inf:
         return math.copysign(size, above), gap * math.copysign(1.0 / size, above)
     return math.copysign(size, above), across / max(float(np.hypot(*across)), np.finfo(float).tiny)
 
@@ -108,8 +108,7 @@ def vertex_residuals(
     sigmas, above = np.empty(len(x)), np.empty(len(x))
     nearest, directions = np.empty(len(x), int), np.empty((len(x), 2))
     for i in range(len(x)):
-        with np.errstate(over="ignore"):  # infinitely many sigmas off
-            gaps = np.stack([x[i] - vertex_x, y[i] - vertex_y], 1) / scale[i]
+        gaps = np.stack([x[i] - vertex_x, y[i] - vertex_y], 1) / scale[i]
         at_x = gaps[np.abs(gaps[:, 0]) <= 1.0, 1] * scale[i, 1]
         above[i] = at_x[np.abs(at_x).argmin()] if at_x.size else np.inf
         nearest[i] = np.hypot(*gaps.T).argmin()

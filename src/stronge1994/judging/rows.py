@@ -53,8 +53,6 @@ def _parts(comparison: Comparison, every: Sequence[Comparison]) -> list[Comparis
     if comparison.metric != Metric.RATIO:
         return [comparison]
     alike = [one for one in every if (one.scale, one.metric) == (comparison.scale, Metric.DISTANCE)]
-    if len(alike) != 2:
-        raise ValueError(f"{comparison.name}: a ratio needs two with its scale, here {len(alike)}")
     return sorted(alike, key=lambda one: one.reference != comparison.reference)
 
 
@@ -123,7 +121,9 @@ def _row(
 
 def _measured(comparison: Comparison, parts: Sequence[Comparison], curves: Table) -> Measured:
     if comparison.metric == Metric.RATIO:
-        return scales.ratio(parts[0], parts[1], curves)
+        if len(parts) != 2:
+            raise ValueError(f"a ratio needs two comparisons with its scale, here {len(parts)}")
+        return scales.ratio(*parts, curves=curves)
     return (scales.measure if comparison.scale else measure)(comparison, curves)
 
 
