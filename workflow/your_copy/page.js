@@ -4,23 +4,28 @@
 (() => {
   const get = (id) => document.getElementById(id);
   const [sheet, stage, picture] = ["sheet", "stage", "picture-of-copy"].map(get);
-  const FIELDS = ["who", "when", "from", "incidence"];
+  const TEXTS = ["who", "when", "from", "incidence", "scale"];
   const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+  const MOST_NOTICED = 0.1; // above, the run cannot tell
   const name_of = (column) => column.replace(/ \[.*/, "").replaceAll("_", " ");
 
   let state = null;
-  const past = []; // states before, as text
   let kept = {}; // the last states of other panels
+  const pictures = []; // all that were opened
+  let shown = null; // number of the one that is seen
+  const past = []; // all this before, as text
   let dark = null; // darkness of the picture, once a line is followed
   let imported = null; // columns of an export
 
   const panel = () => DATA.panels[state.panel];
   const placed = () => state.marks.filter((m) => m.u !== null && m.x !== null && m.y !== null);
-  const fitted = () => maps.fit(placed());
+  const fitted = () => maps.fit(placed(), panel().range, state.flat);
   const reading = () => state.readings[state.second ? 1 : 0];
   const size = () => Math.hypot(picture.naturalWidth, picture.naturalHeight);
-  const sigmas = () => readings.sigmas(fitted(), state.readings, state.widths, size(), chosen_series()?.line);
+  const is_line = () => Boolean(chosen_series()?.line);
+  const judged = (map) => readings.judged(map, state, is_line(), size());
   const chosen_series = () => panel().series.find(({ id }) => id === state.series);
+  const whole = () => JSON.stringify({ state, kept, shown });
   const spans = ({ range }) => range.map(([low, high]) => high - low);
 
   // A value on an axis, to a thousandth of it, with its unit.
@@ -30,37 +35,39 @@
     return `${value.toFixed(digits).replace("-", "\u2212")} ${readings.unit_of(column).replace(/\bmu\b/, "µ")}`.trim();
   }
 
-  const along = ({ x, y }) => `${said(x, 0)} along x, ${said(y, 1)} along y.`;
-
-  const NOTHING_READ = { readings: [[], []], widths: [0, 0], clicks: [], second: false, chosen: null, by: "" };
+  const NOTHING_READ = { readings: [[], []], widths: [0, 0], clicks: [], second: false, chosen: null, by: "", saved: "" };
 
   function fresh(name) {
     const { marks, series } = DATA.panels[name];
     return {
       panel: name, mode: "marks", marks: marks.map(([x, y]) => ({ x, y, u: null, v: null })), next: 0, off: [], cursor: null,
-      series: series[0]?.id ?? "", follow: series[0]?.line ?? false, ...structuredClone(NOTHING_READ),
+      flat: state?.flat ?? false, series: series[0]?.id ?? "", follow: series[0]?.line ?? false,
+      ...structuredClone(NOTHING_READ),
     };
   }
 
   // Change the state, so that it can be undone.
   function change(action) {
-    past.push(JSON.stringify(state));
+    past.push(whole());
     action();
     get("saved").textContent = "";
     draw();
   }
 
   function undo() {
-    if (past.length) state = JSON.parse(past.pop());
+    const before = shown;
+    if (past.length) ({ state, kept, shown } = JSON.parse(past.pop()));
+    if (shown !== before) show_picture();
     show_panel();
   }
 
   // Curves of the panel as they are drawn: forces of an unknown scale are multiplied.
-  function shown() {
+  function curves_here() {
     const factor = panel().scale ? typed(get("scale").value) || 1 : 1;
-    return panel().curves.map((curve, i) => ({ ...curve, i, y: curve.y.map((y) => y * factor) }))
-      .filter(({ i }) => !state.off.includes(i));
+    return panel().curves.map((curve, i) => ({ ...curve, i, y: curve.y.map((y) => y * factor) }));
   }
+
+  const drawn = () => curves_here().filter(({ i }) => !state.off.includes(i));
 
   // Distance of a point from a curve if both axes have these scales.
   const distance = ({ x, y }, [px, py], [sx, sy]) =>
@@ -80,26 +87,45 @@
 
   function draw() {
     const map = fitted();
-    const closed = !picture.naturalWidth;
+    const closed = shown === null;
     draw_marks(map);
     draw_curves(map);
-    draw_signs();
+    draw_signs(map);
     draw_loupe();
-    const found = sigmas();
-    get("points").textContent =
-      `First reading: ${state.readings[0].length} points. Second: ${state.readings[1].length}.`;
-    get("sigmas").textContent = found.refused ?? `Uncertainty (sigma): ${along(found)}`;
+    const [first, second] = state.readings.map(({ length }) => length);
+    get("points").textContent = is_line() ? `${first} points.` : `First reading: ${first} points. Second: ${second}.`;
+    get("sigmas").textContent = uncertainty(map, judged(map));
     for (const id of ["trace", "save", "export-take"]) get(id).disabled = closed || map.refused || !state.series;
-    get("second").disabled = !state.readings[0].length;
+    get("second").disabled = !first;
+    get("second").hidden = is_line();
+    for (const id of ["with-follow", "with-width"]) get(id).hidden = !is_line();
+    if (document.activeElement !== get("width")) get("width").value = state.widths[0] ? state.widths[0].toFixed(1) : "";
     get("second").textContent = state.second ? "Back to the first reading" : "Read a second time";
     get("with-incidence").hidden = !chosen_series()?.open.includes("incidence");
-    get("picture").disabled = closed;
+    for (const id of ["picture", "save-all"]) get(id).disabled = closed;
+    get("flat").checked = state.flat;
     get("undo").disabled = !past.length;
     get("follow").checked = state.follow;
     get("trace").hidden = !state.follow;
     get(`mode-${state.mode}`).checked = true;
     get("task").textContent = closed ? "" : task(map);
   }
+
+  // Sigma of a point, and what the run would notice with it.
+  function uncertainty(map, found) {
+    if (found.refused) return found.refused;
+    const { allowance, id } = chosen_series();
+    // That of measured points is the last one.
+    const curve = curves_here().find(({ series }) => series === id) ?? curves_here().at(-1);
+    const noticed = readings.noticed(map, found, curve, allowance, panel().scale);
+    const words = `A curve ${readings.round(100 * noticed, 2)} % ${panel().scale ? "wider" : "larger"} than ours would fail`;
+    const sigmas = `Uncertainty (sigma): ${said(found.sigmas[0], 0)} along x, ${said(found.sigmas[1], 1)} along y.`;
+    return `${sigmas} ${words}${noticed > MOST_NOTICED ? ", no nearer one: the run could not tell" : ""}.`;
+  }
+
+  // A mark that does not fit the others, in words.
+  const worst = ({ worst: found }) => (found ? `Mark ${state.marks.indexOf(placed()[found.i]) + 1} is ${found.off.toFixed(0)} px ` +
+    "off where the others put it: set it again, or correct its numbers." : "");
 
   // What a click does now.
   function task(map) {
@@ -108,10 +134,11 @@
       const where = x === null || y === null ? "a further mark" : `${name_of(panel().x)} ${x}, ${name_of(panel().y)} ${y}`;
       return `Click where ${where} stands.`;
     }
-    if (map.refused) return map.refused;
+    if (map.refused || map.worst) return map.refused ?? worst(map);
     if (state.mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
     const how = state.follow ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
-    return `${state.second ? "Second" : "First"} reading of: ${chosen_series().name}. ${how}`;
+    const which = is_line() ? "Reading" : `${state.second ? "Second" : "First"} reading`;
+    return `${which} of: ${chosen_series().name}. ${how}`;
   }
 
   function draw_marks(map) {
@@ -133,14 +160,13 @@
         if (document.activeElement !== cell.firstChild) cell.firstChild.value = value ?? "";
       }
       place.textContent = mark.u === null ? "not set" : `${mark.u.toFixed(1)}, ${mark.v.toFixed(1)}`;
-      beside.textContent = off ? Math.hypot(off.u, off.v).toFixed(2) : "";
+      beside.textContent = off?.toFixed(2) ?? "";
     });
-    get("fit").className = map.refused && placed().length > 2 ? "bad" : "";
-    if (map.refused) return get("fit").replaceChildren(map.refused);
-    const quality = map.of_freedom === null ? ". A further mark would show how good it is."
-      : `; residual ${map.residual.pixels.toFixed(2)} px: ${along(map.residual)}`;
-    return get("fit").replaceChildren(
-      `${map.kind === "affine" ? "Affine" : "Perspective"} map from ${placed().length} marks${quality}`);
+    const count = placed().length;
+    get("fit").className = map.worst || (map.refused && count > 2) ? "bad" : "";
+    const quality = map.freedom ? `${count} marks, residual ${map.residual?.toFixed(2)} px. ${worst(map)}`
+      : `${count} marks. A further one would show how good they are.`;
+    get("fit").textContent = map.refused ?? quality;
   }
 
   const style_of = ({ line }, i) => `curve c${i % 6} ${line}`;
@@ -154,7 +180,8 @@
         aria-hidden="true"><path class="${style_of(curve, i)}" d="M0,4H34"/></svg> ${curve.name}</label>`).join("");
     }
     list.querySelectorAll("input").forEach((box, i) => { box.checked = !state.off.includes(i); });
-    get("lines").innerHTML = map.refused ? "" : shown().map((curve) => {
+    get("lines").classList.toggle("unread", state.mode === "read"); // nobody shall read the model
+    get("lines").innerHTML = map.refused ? "" : drawn().map((curve) => {
       const places = curve.x.map((x, k) => map.to_pixels([x, curve.y[k]]).map((one) => one.toFixed(2)).join(","));
       return `<polyline class="${style_of(curve, curve.i)}" points="${places.join(" ")}"/>`;
     }).join("");
@@ -162,12 +189,32 @@
 
   const zoom = () => sheet.getBoundingClientRect().width / picture.naturalWidth || 1;
 
-  function draw_signs() {
+  // Lines of the map at round values, with their numbers, to be seen beside those of the print.
+  function grid(map) {
+    const { range } = panel();
+    const size = 13 / zoom();
+    return range.flatMap((span, i) => {
+      const rough = (span[1] - span[0]) / 4.5;
+      const ten = 10 ** Math.floor(Math.log10(rough));
+      const step = ten * [5, 2, 1].find((one) => one * ten <= rough);
+      const from = Math.ceil(span[0] / step - 1e-9);
+      const at = (value, other) => map.to_pixels(i ? [other, value] : [value, other]);
+      return Array.from({ length: Math.floor(span[1] / step + 1e-9) - from + 1 }, (_, k) => {
+        const value = Number(((from + k) * step).toPrecision(9));
+        const [start, end] = range[1 - i].map((other) => at(value, other));
+        const [u, v] = at(value, Math.max(0, range[1 - i][0]));
+        return `<path d="M${start}L${end}"/><text x="${u + size / 4}" y="${v - size / 4}" font-size="${size}">${value}</text>`;
+      });
+    }).join("");
+  }
+
+  function draw_signs(map) {
     const far = 6 / zoom();
     const cross = ([u, v], style) =>
       `<path class="sign ${style}" d="M${u - far},${v}H${u + far}M${u},${v - far}V${v + far}"/>`;
     const is_chosen = (list, i) => (state.chosen?.list === list && state.chosen.i === i ? "chosen" : "");
     get("signs").innerHTML = [
+      map.refused || state.mode === "read" ? "" : `<g class="grid invitation">${grid(map)}</g>`,
       ...state.marks.map(({ u, v }, i) => (u === null ? "" : cross([u, v], `mark ${is_chosen("marks", i)}`))),
       ...reading().map(([u, v], i) =>
         `<circle class="sign point ${is_chosen("points", i)}" cx="${u}" cy="${v}" r="${far}"/>`),
@@ -183,9 +230,15 @@
     return list === "points" ? reading()[i] ?? null : null;
   }
 
+  // The magnifier, in the other corner if it would hide the place.
   function draw_loupe(at = chosen_place() ?? state.cursor) {
-    get("close-up").hidden = !at;
-    if (at) get("loupe").setAttribute("viewBox", `${at[0] - 10} ${at[1] - 10} 20 20`);
+    const box = get("close-up");
+    box.hidden = !at || !get("magnifier").checked;
+    if (box.hidden) return;
+    get("loupe").setAttribute("viewBox", `${at[0] - 10} ${at[1] - 10} 20 20`);
+    const [{ left, top }, own] = [sheet, box].map((one) => one.getBoundingClientRect());
+    const [x, y] = [left + zoom() * at[0], top + zoom() * at[1]];
+    if (x > own.left - 9 && x < own.right + 9 && y > own.top - 9) box.classList.toggle("left");
   }
 
   // Values of the axes at a place, and how far it is from the nearest curve.
@@ -193,7 +246,7 @@
     const map = fitted();
     if (map.refused) return;
     const point = map.to_axes(place);
-    const all = shown().map((curve) => ({ curve, near: distance(curve, point, spans(panel())) }));
+    const all = (state.mode === "read" ? [] : drawn()).map((curve) => ({ curve, near: distance(curve, point, spans(panel())) }));
     const { curve } = all.reduce((best, one) => (one.near < best.near ? one : best), { near: Infinity });
     const above = curve ? height(curve, point) : 0;
     const beside = curve ? `; ${said(Math.abs(above), 1)} ${above < 0 ? "below" : "above"} “${curve.name}”` : "";
@@ -228,6 +281,7 @@
         if (state.follow) return void state.clicks.push([u, v]);
         // A click on a point that was read chooses it.
         const there = reading().findIndex(([a, b]) => Math.hypot(a - u, b - v) < 6 / zoom());
+        if (there < 0) state.by = "";
         state.chosen = { list: "points", i: there < 0 ? reading().push([u, v]) - 1 : there };
       });
     }
@@ -258,7 +312,8 @@
   const typed = (text) => (text.trim() === "" ? NaN : Number(text.replace(/[\u2212\u2013]/, "-").replace(",", ".")));
 
   function press(event) {
-    if ((event.ctrlKey || event.metaKey) && event.key === "z" && !writes(event.target)) undo();
+    const is_z = /^[a-z]$/i.test(event.key) ? event.key.toLowerCase() === "z" : event.code === "KeyZ";
+    if ((event.ctrlKey || event.metaKey) && is_z && !writes(event.target)) undo();
     else if (!picture.naturalWidth || event.target.matches("input, select, textarea")) return;
     else if (event.key in ARROWS) {
       const far = chosen_place() ? 1 : 10; // with Shift; without anything chosen the cursor goes
@@ -319,34 +374,69 @@
     if (!file) return;
     if (/\.pdf$/i.test(file.name)) refuse("This page cannot draw a PDF. Paste a screenshot of the figure.");
     else if (file.type.startsWith("image/")) open_picture(file);
+    else if (/\.json$/i.test(file.name)) open_saved(await file.text());
     else read_export(get("export").value = await file.text());
   }
 
   function open_picture(blob) {
     const [reader, trial] = [new FileReader(), new Image()]; // else what cannot be shown would replace the picture
-    trial.onload = () => { picture.src = trial.src; };
-    picture.onload = () => {
-      const { naturalWidth: width, naturalHeight: height, src: href } = picture;
-      sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
-      for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
-      document.body.classList.add("opened");
+    trial.onload = () => change(() => {
       // Marks and points are places in the picture before.
       const { panel: name, series, follow, off } = state;
       state = { ...fresh(name), series, follow, off };
-      past.length = 0;
-      kept = {};
-      dark = null;
-      refuse("");
-      set_zoom();
-    };
+      show_new(trial.src, {});
+    });
     trial.onerror = () => refuse("The browser cannot show this file. Paste a screenshot of the figure.");
     reader.onload = () => { trial.src = reader.result; };
     reader.readAsDataURL(blob);
   }
 
+  function show_new(address, others) {
+    kept = others;
+    shown = pictures.push(address) - 1;
+    refuse("");
+    show_picture();
+  }
+
+  function show_picture() {
+    document.body.classList.toggle("opened", shown !== null);
+    picture.src = pictures[shown] ?? "";
+  }
+
+  function on_picture() {
+    const { naturalWidth: width, naturalHeight: height, src: href } = picture;
+    sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
+    dark = null;
+    set_zoom();
+  }
+
+  // Everything, to go on another day.
+  function save_all() {
+    const texts = Object.fromEntries(TEXTS.map((id) => [id, get(id).value]));
+    const all = JSON.stringify({ state, kept, picture: pictures[shown], texts });
+    files.save(`${state.panel}_reading.json`, new Blob([all], { type: "application/json" }));
+    for (const one of [state, ...Object.values(kept)]) one.saved = JSON.stringify(one.readings);
+  }
+
+  function open_saved(text) {
+    let given = null;
+    try {
+      // Nothing of it may become a part of the page.
+      given = JSON.parse(text, (_, value) => (typeof value === "string" ? value.replace(/[<>"]/g, "") : value));
+    } catch { /* said below */ }
+    if (!DATA.panels[given?.state?.panel] || !given.picture) return refuse("This file holds no readings that this page has saved.");
+    for (const id of TEXTS) get(id).value = given.texts[id];
+    change(() => {
+      state = given.state;
+      show_new(given.picture, given.kept);
+    });
+    return show_panel();
+  }
+
   // At the smallest size the whole picture is seen; what is chosen, or lies in the middle, stays there.
   function set_zoom() {
-    if (!picture.naturalWidth) return;
+    if (!picture.naturalWidth) return draw();
     const { naturalWidth: width, naturalHeight: height } = picture;
     const middle = chosen_place() ??
       [stage.scrollLeft + stage.clientWidth / 2, stage.scrollTop + stage.clientHeight / 2].map((one) => one / zoom());
@@ -360,26 +450,30 @@
   }
 
   function save() {
-    const said_of = { series: chosen_series(), ...Object.fromEntries(FIELDS.map((id) => [id, get(id).value])) };
-    const found = sigmas();
-    const problem = found.refused ?? (readings.missing(said_of) || readings.unfit(said_of.series, fitted(), found, state.readings[0]));
+    const said_of = { series: chosen_series(), ...Object.fromEntries(TEXTS.map((id) => [id, get(id).value])) };
+    const map = fitted();
+    const found = judged(map);
+    const unfit = () => readings.unfit(said_of.series, map, found);
+    const problem = found.refused ?? (readings.missing(said_of) || (unfit() && (worst(map) || unfit())));
     refuse(problem);
     get("saved").textContent = "";
     if (problem) return;
     const how = `planarimpact ${DATA.version}, your_copy.html; picture of ${picture.naturalWidth} x ` +
       `${picture.naturalHeight} px${state.by ? `; ${state.by}` : ""}`;
-    const text = readings.csv(said_of, fitted(), placed(), found, state.readings[0], how);
+    const text = readings.csv(said_of, panel().range, map, placed(), found, how);
     const [source, name] = state.series.split("/");
     files.save(`${name}.csv`, new Blob([text], { type: "text/csv" }));
+    state.saved = JSON.stringify(state.readings);
     get("saved").textContent = `Put ${name}.csv into the folder data/${source}/ of the project, and run: ` +
-      `snakemake --cores 2 ${panel().figure}`;
+      `snakemake --cores 2 ${panel().figure}. The report shows ${name}.png (“Save picture”) if it lies beside it.`;
   }
 
   // Picture and curves as they lie, with the names of the curves, for one's own use.
   async function save_picture() {
     const names = [...get("curves").querySelectorAll("label")].filter((label) => label.firstChild.checked);
     const below = names.map((label) => [label.querySelector("path"), label.textContent.trim()]);
-    files.save(`${state.panel}_overlay.png`, await files.picture(sheet, [panel().title], below));
+    const name = state.readings[0].length ? state.series.split("/")[1] : `${state.panel}_overlay`;
+    files.save(`${name}.png`, await files.picture(sheet, [panel().title], below));
   }
 
   // --- controls ---
@@ -390,6 +484,21 @@
     if (state.chosen?.list === other) state.chosen = null;
     Object.assign(state, { mode, next: next_mark() });
     draw();
+  }
+
+  // Another panel of the picture; marks of an x axis that both share stay.
+  function go_to(name) {
+    const { box } = panel();
+    const marks = box && DATA.panels[name].box === box ? state.marks.filter(({ y, u }) => y === 0 && u !== null) : [];
+    change(() => {
+      kept[state.panel] = state;
+      state = kept[name] ?? fresh(name);
+      for (const mark of state.marks.filter(({ y, u }) => y === 0 && u === null)) {
+        Object.assign(mark, marks.find(({ x }) => x === mark.x));
+      }
+      state.next = next_mark();
+    });
+    show_panel();
   }
 
   function show_panel() {
@@ -410,11 +519,7 @@
 
   function listen() {
     on("file", "change", ({ files: [file] }) => open_file(file));
-    on("panel", "change", ({ value }) => {
-      kept[state.panel] = state;
-      change(() => { state = kept[value] ?? fresh(value); });
-      show_panel();
-    });
+    on("panel", "change", ({ value }) => go_to(value));
     on("series", "change", ({ value }) => { choose_series(value); set_mode("read"); });
     on("sheet", "click", (_, event) => { sheet.focus({ preventScroll: true }); state.cursor = null; put(place_of(event)); });
     on("sheet", "pointermove", (_, event) => {
@@ -453,6 +558,13 @@
       state.off = checked ? state.off.filter((one) => one !== i) : [...state.off, i];
     }));
     on("scale", "input", draw);
+    on("flat", "change", ({ checked }) => change(() => { state.flat = checked; }));
+    on("width", "change", ({ value }) => change(() => { state.widths[0] = Math.max(0, typed(value)) || 0; }));
+    on("magnifier", "change", () => draw_loupe());
+    on("close-loupe", "click", () => {
+      get("magnifier").checked = false;
+      draw_loupe();
+    });
     on("follow", "change", ({ checked }) => { change(() => { state.follow = checked; }); set_mode("read"); });
     on("opacity", "input", ({ value }) => sheet.style.setProperty("--opacity", value));
     on("zoom", "input", set_zoom);
@@ -474,6 +586,8 @@
     });
     on("export-take", "click", take_export);
     on("save", "click", save);
+    on("save-all", "click", save_all);
+    picture.addEventListener("load", on_picture);
     on("picture", "click", save_picture);
     for (const event of ["pointerdown", "pointerup", "pointerleave", "blur"]) {
       on("hold", event, () => sheet.classList.toggle("print-only", event === "pointerdown"));
@@ -490,9 +604,14 @@
     document.addEventListener("drop", (event) => { event.preventDefault(); open_file(event.dataTransfer.files[0]); });
     document.addEventListener("paste", ({ clipboardData, target }) => {
       if (writes(target)) return;
-      const image = [...clipboardData.items].find(({ type }) => type.startsWith("image/"));
-      if (image) open_picture(image.getAsFile());
-      else read_export(get("export").value = clipboardData.getData("text"));
+      // Cells of a table come as a picture, too.
+      const [image, text] = [[...clipboardData.items].find(({ type }) => type.startsWith("image/")), clipboardData.getData("text")];
+      if (image && exports_of_others.read(text).refused) open_picture(image.getAsFile());
+      else read_export(get("export").value = text);
+    });
+    window.addEventListener("beforeunload", (event) => {
+      const every = Object.values({ ...kept, [state.panel]: state });
+      if (every.some(({ readings: own, saved }) => own[0].length && JSON.stringify(own) !== saved)) event.preventDefault();
     });
     window.addEventListener("resize", set_zoom);
   }
