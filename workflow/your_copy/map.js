@@ -42,14 +42,12 @@ const maps = (() => {
   const is_loose = (rows) => !(add(inverse(normal(rows))?.map((row, i) => row[i]) ?? [Infinity]) < LOOSE);
 
   // How errors of the unknowns move a place along each axis, in halves of it.
-  const basis = ([x, y]) => [[1, x, y, 0, 0, 0, x * x, x * y], [0, 0, 0, 1, x, y, x * y, y * y]];
+  const basis = ([x, y]) => [[x, y, 1, 0, 0, 0, x * x, x * y], [0, 0, 0, x, y, 1, x * y, y * y]];
 
-  const matrix_of = ([a, b, c, d, e, f, g, h]) => [[b, c, a], [e, f, d], [g, h, 1]];
-
-  function image(matrix, [x, y]) {
-    const [u, v, w] = times(matrix, [x, y, 1]);
-    return [u / w, v / w];
-  }
+  const image = ([a, b, c, d, e, f, g, h], [x, y]) => {
+    const w = g * x + h * y + 1;
+    return [(a * x + b * y + c) / w, (d * x + e * y + f) / w];
+  };
 
   // Gauss and Newton. The first step, from a map of everything to the middle, leads to the best map without tilt.
   function solved(from, to, sigma, prior) {
@@ -57,9 +55,9 @@ const maps = (() => {
     let off = to;
     for (let step = 0; step < 15; step++) {
       const rows = from.flatMap(([x, y]) => {
-        const [u, v] = image(matrix_of(found), [x, y]);
+        const [u, v] = image(found, [x, y]);
         const w = sigma * (found[6] * x + found[7] * y + 1);
-        return [[1, x, y, 0, 0, 0, -u * x, -u * y], [0, 0, 0, 1, x, y, -v * x, -v * y]]
+        return [[x, y, 1, 0, 0, 0, -u * x, -u * y], [0, 0, 0, x, y, 1, -v * x, -v * y]]
           .map((row) => row.map((one) => one / w));
       });
       const right = times(transposed(rows), off.flat()).map((one, i) => one / sigma - (i > 5 ? prior * found[i] : 0));
@@ -67,7 +65,7 @@ const maps = (() => {
       if (!covariance) return null;
       const change = times(covariance, right);
       found = found.map((one, i) => one + change[i]);
-      off = from.map((place, i) => image(matrix_of(found), place).map((one, k) => to[i][k] - one));
+      off = from.map((place, i) => image(found, place).map((one, k) => to[i][k] - one));
     }
     const squares = add(off.flat().map((one) => one * one));
     return { found, off, squares, cost: squares / sigma ** 2 + prior * (found[6] ** 2 + found[7] ** 2) };
@@ -78,7 +76,7 @@ const maps = (() => {
     const all = from.map((_, i) => {
       const [rest, places] = [from, to].map((list) => list.filter((_, k) => k !== i));
       const own = solved(rest, places, CLICK, prior);
-      return { i, cost: own?.cost ?? Infinity, off: own ? far(image(matrix_of(own.found), from[i]), to[i]) : 0 };
+      return { i, cost: own?.cost ?? Infinity, off: own ? far(image(own.found, from[i]), to[i]) : 0 };
     });
     return all.reduce((best, one) => (one.cost < best.cost ? one : best));
   }
@@ -109,13 +107,13 @@ const maps = (() => {
     if (!(Math.hypot(found[6], found[7]) < most)) {
       return { refused: "The marks do not fit each other: set them again, or correct their numbers." };
     }
-    const matrix = matrix_of(found);
-    const [x_axis, y_axis] = [0, 1].map((k) => [0, 1].map((i) => matrix[i][k] - matrix[2][k] * matrix[i][2]));
-    const sine = (x_axis[0] * y_axis[1] - x_axis[1] * y_axis[0]) / Math.hypot(...x_axis) / Math.hypot(...y_axis);
+    const [a, b, c, d, e, f, g, h] = found;
+    const sine = ((a - g * c) * (e - h * f) - (b - h * c) * (d - g * f)) / Math.hypot(a - g * c, d - g * f) /
+      Math.hypot(b - h * c, e - h * f);
     if (sine > LEVEL) return { refused: "The picture would be mirrored: are two marks exchanged, or is a sign wrong?" };
     if (!(sine < -LEVEL)) return on_line;
-    const back = inverse(matrix);
-    const to_pixels = (point) => image(matrix, scaled(point)).map((one, i) => one + middle[i]);
+    const back = inverse([[a, b, c], [d, e, f], [g, h, 1]]).flat().map((one, _, all) => one / all[8]);
+    const to_pixels = (point) => image(found, scaled(point)).map((one, i) => one + middle[i]);
     const to_axes = (place) =>
       image(back, place.map((one, i) => one - middle[i])).map((one, i) => one * half[i] + mid[i]);
     // Units of the axes for a pixel.

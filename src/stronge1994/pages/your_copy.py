@@ -127,5 +127,5 @@ def _check(place: int, curve: Panel, spans: Sequence[Sequence[float]]) -> dict[s
     point = [low + 0.37 * (high - low) for low, high in spans]
     line = curve["x"], curve["y"]
     one = [[value] for value in point]
-    near, above = distances.curve_residuals(one, line, (scales[0], scales[1]))
-    return {"curve": place, "point": point, "near": abs(float(near[0])), "above": float(above[0])}
+    near = distances.curve_residuals(one, line, (scales[0], scales[1]))[0]
+    return {"curve": place, "point": point, "near": abs(float(near[0]))}
