@@ -71,7 +71,8 @@ const readings = (() => {
     const near = chain.slice(1).map((end, i) => trace.beside(scaled(point), [chain[i], end]));
     const i = near.indexOf(Math.min(...near));
     const [along, up] = [0, 1].map((k) => chain[i + 1][k] - chain[i][k]);
-    return scaled([-up / Math.hypot(along, up), along / Math.hypot(along, up)]);
+    const length = Math.hypot(along, up) || 1;
+    return scaled([-up / length, along / length]);
   }
 
   // The error of a curve that the run would notice nine times of ten, as a share of its y; of its x, if the scale

@@ -51,7 +51,7 @@ def page(
     for one in (one for panel in panels.values() for one in panel["series"]):
         one["allowance"] = [allowances.get(one["id"], {}).get(axis, 0.0) for axis in "xy"]
     folder = next(Path(path).parent for path in paths if path.endswith("your_copy.html"))
-    limits = _noncentrality(significance)
+    limits = noncentrality(significance)
     told = {"version": version, "refused": REFUSED, "noncentrality": limits, "panels": panels}
     data = json.dumps(told, ensure_ascii=False)
     template = templates.environment(folder).get_template("your_copy.html")
@@ -60,7 +60,7 @@ def page(
     )
 
 
-def _noncentrality(significance: float) -> dict[str, Any]:
+def noncentrality(significance: float) -> dict[str, Any]:
     """What chi-squared must have for 9 of 10 refusals: by points, and degrees left over by marks.
 
     The sigmas of markers rest on 8 values, two for each point, and what the marks leave over.
