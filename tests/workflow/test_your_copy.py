@@ -117,11 +117,13 @@ def page(tab, first_run):
 
 
 # A map of Fig. 5 with 100 and 80 pixels for a unit; the marks lie where they should, but for these.
-MAP = """(marks, off = {}, flat = false, [cos, sin, tilt] = [1, 0, 0]) => maps.fit(marks.map(([x, y], i) => {
-  const [u, v, w] = [100 * (x - 4), -80 * (y + 1), 1 + tilt * (x - 4) / 4];
-  const [du, dv] = off[i] ?? [0, 0];
-  return { x, y, u: (cos * u - sin * v) / w + 900 + du, v: (sin * u + cos * v) / w + 700 + dv };
-}), [[0, 8], [-3, 1]], flat)"""
+MAP = """(marks, off = {}, flat = false, [cos, sin, tilt] = [1, 0, 0]) => {
+  const clicked = marks.map(([x, y], i) => {
+    const [u, v, w] = [100 * (x - 4), -80 * (y + 1), 1 + tilt * (x - 4) / 4];
+    const [du, dv] = off[i] ?? [0, 0];
+    return { x, y, u: (cos * u - sin * v) / w + 900 + du, v: (sin * u + cos * v) / w + 700 + dv };
+  });
+  return maps.fit(clicked, [[0, 8], [-3, 1]], flat); }"""
 CORNER = [one for one in MARKS if one != (0, -2)] + [(8, -3)]
 FOUR = [(0, 0), (6, 0), (0, -3), (8, -3)]
 
@@ -136,7 +138,8 @@ def arguments(*every):
 def test_a_map_knows_how_uncertain_it_is_in_the_corner(marks, wanted, page):
     found = page.evaluate(f"""(() => {{ const map = ({MAP})({arguments(marks)});
       const own = map.covariance([0.5 / 100, 0.5 / 80]);
-      return map.shifts([8, -3]).map((row) => Math.sqrt(maps.dot(row, maps.times(own, row)))); }})()""")
+      return map.shifts([8, -3])
+        .map((row) => Math.sqrt(maps.dot(row, maps.times(own, row)))); }})()""")
     assert found == pytest.approx(wanted, abs=1e-5)
 
 
@@ -238,11 +241,14 @@ def test_readings_that_say_nothing_are_refused(first, second, line, wanted, page
 NOTICED = """(({{ sigma, width, values, marks, allowance, free, xs, limits }}) => {{
   const [curve] = DATA.panels.fig5.curves, map = ({MAP})(marks);
   DATA.noncentrality = limits;
-  const at = (x) => {{ const k = curve.x.findIndex((one) => one >= x), [a, b] = [curve.x[k - 1], curve.x[k]];
+  const at = (x) => {{ const k = curve.x.findIndex((one) => one >= x);
+    const [a, b] = [curve.x[k - 1], curve.x[k]];
     return curve.y[k - 1] + (curve.y[k] - curve.y[k - 1]) * (x - a) / (b - a); }};
   const points = xs.map((x) => map.to_pixels([x, at(x)]));
-  const found = {{ points, sigmas: [sigma / 100, sigma / 80], marks: [0.005, 0.00625], width, values }};
-  return [readings.noticed(map, found, curve, [0, allowance], free), points.map(map.to_axes), curve]; }})"""
+  const sigmas = [sigma / 100, sigma / 80];
+  const found = {{ points, sigmas, marks: [0.005, 0.00625], width, values }};
+  const seen = readings.noticed(map, found, curve, [0, allowance], free);
+  return [seen, points.map(map.to_axes), curve]; }})"""
 
 
 @pytest.mark.parametrize(

@@ -21,10 +21,10 @@
   const placed = () => state.marks.filter((m) => m.u !== null && m.x !== null && m.y !== null);
   const fitted = () => maps.fit(placed(), panel().range, state.flat);
   const reading = () => state.readings[state.second ? 1 : 0];
-  const size = () => Math.hypot(picture.naturalWidth, picture.naturalHeight);
   const is_line = () => Boolean(chosen_series()?.line);
-  const judged = (map) => readings.judged(map, state, is_line(), size());
+  const judged = (map) => readings.judged(map, state, is_line(), Math.hypot(picture.naturalWidth, picture.naturalHeight));
   const chosen_series = () => panel().series.find(({ id }) => id === state.series);
+  const texts = () => Object.fromEntries(TEXTS.map((id) => [id, get(id).value]));
   const whole = () => JSON.stringify({ state, kept, shown });
   const spans = ({ range }) => range.map(([low, high]) => high - low);
 
@@ -204,7 +204,7 @@
       `<path class="sign ${style}" d="M${u - far},${v}H${u + far}M${u},${v - far}V${v + far}"/>`;
     const is_chosen = (list, i) => (state.chosen?.list === list && state.chosen.i === i ? "chosen" : "");
     get("signs").innerHTML = [
-      map.refused || state.mode === "read" ? "" : `<g class="grid invitation">${grid(map)}</g>`,
+      map.refused || state.mode === "read" ? "" : `<g class="grid invitation">${grid(map)}</g>`, // not in a saved picture
       ...state.marks.map(({ u, v }, i) => (u === null ? "" : cross([u, v], `mark ${is_chosen("marks", i)}`))),
       ...reading().map(([u, v], i) =>
         `<circle class="sign point ${is_chosen("points", i)}" cx="${u}" cy="${v}" r="${far}"/>`),
@@ -402,10 +402,9 @@
 
   // Everything, to go on another day.
   function save_all() {
-    const texts = Object.fromEntries(TEXTS.map((id) => [id, get(id).value]));
-    const all = JSON.stringify({ state, kept, picture: pictures[shown], texts });
-    files.save(`${state.panel}_reading.json`, new Blob([all], { type: "application/json" }));
     for (const one of [state, ...Object.values(kept)]) one.saved = JSON.stringify(one.readings);
+    const all = JSON.stringify({ state, kept, picture: pictures[shown], texts: texts() });
+    files.save(`${state.panel}_reading.json`, new Blob([all], { type: "application/json" }));
   }
 
   function open_saved(text) {
@@ -414,8 +413,10 @@
       // Nothing of it may become a part of the page.
       given = JSON.parse(text, (_, value) => (typeof value === "string" ? value.replace(/[<>"]/g, "") : value));
     } catch { /* said below */ }
-    if (!DATA.panels[given?.state?.panel] || !given.picture) return refuse("This file holds no readings that this page has saved.");
-    for (const id of TEXTS) get(id).value = given.texts[id];
+    if (!DATA.panels[given?.state?.panel] || !`${given.picture}`.startsWith("data:image/")) {
+      return refuse("This file holds no readings that this page has saved.");
+    }
+    set("value", given.texts);
     change(() => {
       state = given.state;
       show_new(given.picture, given.kept);
@@ -439,11 +440,11 @@
   }
 
   function save() {
-    const said_of = { series: chosen_series(), ...Object.fromEntries(TEXTS.map((id) => [id, get(id).value])) };
+    const said_of = { series: chosen_series(), ...texts() };
     const map = fitted();
     const found = judged(map);
-    const unfit = () => readings.unfit(said_of.series, map, found);
-    const problem = found.refused ?? (readings.missing(said_of) || (unfit() && (worst(map) || unfit())));
+    const unfit = found.refused ?? readings.unfit(said_of.series, map, found);
+    const problem = found.refused ?? (readings.missing(said_of) || (unfit && worst(map)) || unfit);
     refuse(problem);
     get("saved").textContent = "";
     if (problem) return;
@@ -521,7 +522,7 @@
     on("marks", "click", ({ className, dataset }) => {
       const i = Number(dataset.mark);
       if (className === "mark-pick") {
-        change(() => { Object.assign(state, { next: i, mode: "marks", chosen: { list: "marks", i } }); });
+        change(() => Object.assign(state, { next: i, mode: "marks", chosen: { list: "marks", i } }));
         set_zoom();
       }
       if (className === "mark-drop") {
@@ -550,10 +551,7 @@
     on("flat", "change", ({ checked }) => change(() => { state.flat = checked; }));
     on("width", "change", ({ value }) => change(() => { state.widths[0] = Math.max(0, typed(value)) || 0; }));
     on("magnifier", "change", () => draw_loupe());
-    on("close-loupe", "click", () => {
-      get("magnifier").checked = false;
-      draw_loupe();
-    });
+    on("close-loupe", "click", () => get("magnifier").click());
     on("follow", "change", ({ checked }) => { change(() => { state.follow = checked; }); set_mode("read"); });
     on("opacity", "input", ({ value }) => sheet.style.setProperty("--opacity", value));
     on("zoom", "input", set_zoom);
@@ -578,16 +576,12 @@
     on("save-all", "click", save_all);
     picture.addEventListener("load", on_picture);
     on("picture", "click", save_picture);
-    for (const event of ["pointerdown", "pointerup", "pointerleave", "blur"]) {
-      on("hold", event, () => sheet.classList.toggle("print-only", event === "pointerdown"));
-    }
-    for (const event of ["keydown", "keyup"]) {
-      document.addEventListener(event, ({ key, target }) => {
-        const held = key.toLowerCase() === "h" || (target.id === "hold" && [" ", "Enter"].includes(key));
-        if (held && !writes(target)) sheet.classList.toggle("print-only", event === "keydown");
+    for (const type of ["pointerdown", "pointerup", "keydown", "keyup", "blur"]) {
+      window.addEventListener(type, ({ key = " ", target }) => {
+        const held = key.toLowerCase() === "h" ? !writes(target) : target.id === "hold" && [" ", "Enter"].includes(key);
+        sheet.classList.toggle("print-only", held && type.endsWith("down"));
       });
     }
-    window.addEventListener("blur", () => sheet.classList.remove("print-only"));
     document.addEventListener("keydown", press);
     document.addEventListener("dragover", (event) => event.preventDefault());
     document.addEventListener("drop", (event) => { event.preventDefault(); open_file(event.dataTransfer.files[0]); });
