@@ -11,8 +11,8 @@ WIDTH = 80  # of a terminal
 # Texts that may hold a comma stand last.
 COLUMNS = [
     "figure", "comparison", "group", "verdict", "why", "points", "rms", "max", "unit",
-    "chi^2", "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
-    "found", "stated", "column", "entry", "paper", "reference", "model",
+    "chi^2", "degrees of freedom", "degrees of sigma", "p", "would fail", "rms [sigma]",
+    "max [sigma]", "found", "stated", "column", "entry", "paper", "reference", "model",
     "curve", "says", "allowed", "bounds", "note", "reason",
 ]  # fmt: skip
 
@@ -21,9 +21,10 @@ class Verdict(StrEnum):
     """What a comparison says, worst first; only FAILS fails a run.
 
     DIFFERS is a known difference that has kept its bounds, and `Why` says what is known of it.
-    CANNOT_TELL is no evidence: published points agree with the curve, but would also agree if they
-    all lay `judging.verdicts.VISIBLE_SHIFT` sigmas beside it. PASSED is a check of our solver by
-    our own second codes, by 40 digits or by a law; such a check never agrees with anything.
+    CANNOT_TELL is no evidence: published points would also agree with a curve that is a tenth too
+    large, or their p is between agreement and difference, see `judging.verdicts`. PASSED is a check
+    of our solver by our own second codes, by 40 digits or by a law; such a check never agrees with
+    anything.
     """
 
     FAILS = "FAILS"

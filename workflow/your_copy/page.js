@@ -589,7 +589,7 @@
       if (writes(target)) return;
       // Cells of a table come as a picture, too.
       const [image, text] = [[...clipboardData.items].find(({ type }) => type.startsWith("image/")), clipboardData.getData("text")];
-      if (image && exports_of_others.read(text).refused) open_picture(image.getAsFile());
+      if (image && exports_of_others.read(text, [panel().x, panel().y]).refused) open_picture(image.getAsFile());
       else read_export(get("export").value = text);
     });
     window.addEventListener("beforeunload", (event) => {

@@ -17,7 +17,7 @@ from stronge1994 import figure_table, gate, tables, verdict_table, versions, wor
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
-from stronge1994.judging.verdicts import VISIBLE_SHIFT
+from stronge1994.judging.verdicts import DOUBT, LARGEST_ERROR
 from stronge1994.ledger import outcome
 from stronge1994.names import is_of_paper
 from stronge1994.pages import (
@@ -35,8 +35,8 @@ MEANING = {
     Verdict.FAILS: "outside its tolerance, or a known difference has changed: the run fails",
     Verdict.DIFFERS: "as known: the cause is known or unknown, or the scatter of the data is not "
     "published, so that nobody can say what a difference means",
-    Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, and all points lay "
-    f"{VISIBLE_SHIFT:g} sigmas beside it",
+    Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, "
+    f"{100 * LARGEST_ERROR:g} % too large; or chance would explain the distances, but seldom",
     Verdict.NOT_COMPARED: "points, most of them of printed curves, are awaited, or are for other "
     "settings than those of the run",
     Verdict.AGREES: "within the tolerance of a stated value, or chance explains the distances",
@@ -207,6 +207,7 @@ def write(
         "cases": which_model.cases(answers, trade),
         "n": numbers,
         "significance": config["significance"],
+        "doubt": DOUBT * config["significance"],
         "run": run,
         "faults": gate.faults(verdicts, ledger, rows, entries),
     }
