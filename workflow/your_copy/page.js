@@ -110,9 +110,9 @@
     // That of measured points is the last one.
     const curve = curves_here().find(({ series }) => series === id) ?? curves_here().at(-1);
     const noticed = readings.noticed(map, found, curve, allowance, panel().scale);
-    const words = `A curve ${readings.round(100 * noticed, 2)} % ${panel().scale ? "wider" : "larger"} than ours would fail`;
-    const sigmas = `Uncertainty (sigma): ${said(found.sigmas[0], 0)} along x, ${said(found.sigmas[1], 1)} along y.`;
-    return `${sigmas} ${words}${noticed > MOST_NOTICED ? ", no nearer one: the run could not tell" : ""}.`;
+    const words = noticed > MOST_NOTICED ? `The run could not tell: it would notice only errors above ${100 * MOST_NOTICED} %.`
+      : `A curve ${readings.round(100 * noticed, 2)} % ${panel().scale ? "wider" : "larger"} than ours would fail.`;
+    return `Uncertainty (sigma): ${said(found.sigmas[0], 0)} along x, ${said(found.sigmas[1], 1)} along y. ${words}`;
   }
 
   // A mark that does not fit the others, in words.

@@ -122,10 +122,12 @@ def _short(values: Any) -> list[float]:
 
 
 def _check(place: int, curve: Panel, spans: Sequence[Sequence[float]]) -> dict[str, Any]:
-    """A point beside a curve, and its distance as the judge measures it."""
+    """A point beside a curve, not beyond its ends, and its distance as the judge measures it."""
     scales = [high - low for low, high in spans]
-    point = [low + 0.37 * (high - low) for low, high in spans]
     line = curve["x"], curve["y"]
+    middle = len(line[0]) // 2
+    pairs = zip(line, scales, strict=True)
+    point = [sum(own[middle - 1 : middle + 1]) / 2 + 0.05 * scale for own, scale in pairs]
     one = [[value] for value in point]
     near = distances.curve_residuals(one, line, (scales[0], scales[1]))[0]
     return {"curve": place, "point": point, "near": abs(float(near[0]))}
