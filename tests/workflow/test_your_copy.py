@@ -389,7 +389,9 @@ def test_marks_are_asked_for_and_a_wrong_one_is_named(opened):
     page.check("#flat")
     assert "4 marks" in reader.text("#fit") and page.locator("#lines > *").count() == 4
     page.uncheck("#flat")
-    reader.click([(7, 0), *MARKS[5:]])  # where the fourth, of incidence 6, does not stand
+    reader.click([(7, 0), MARKS[5]])  # where the fourth, of incidence 6, does not stand
+    assert re.search(r"^Mark 4 is .* Click where incidence 0, velocity -2", reader.text("#task"))
+    reader.click(MARKS[6:])
     assert re.search(r"^Mark 4 is \d+ px off .*set it again", reader.text("#task"))
     page.check("#mode-marks")
     page.click("#marks tr:nth-child(4) .mark-pick")

@@ -121,7 +121,9 @@ rule your_copy:
             for name, entry in stated.get("series", {}).items()
         },
         allowances=lambda _: {
-            entry["reference"]: entry["allowance"] for entry in config["comparisons"].values() if "allowance" in entry
+            entry["reference"]: entry["allowance"]
+            for entry in config["comparisons"].values()
+            if "allowance" in entry
         },
         significance=lambda _: config["significance"],
         content=digest("workflow/scripts/write_your_copy.py"),

@@ -89,8 +89,8 @@ const maps = (() => {
     const [mid, half] = [1, -1].map((sign) => range.map(([low, high]) => (high + sign * low) / 2));
     const scaled = (point) => point.map((one, i) => (one - mid[i]) / half[i]);
     const from = marks.map(({ x, y }) => scaled([x, y]));
-    const on_line = { refused: "The marks lie on one line. Set one that is away from it, on the other axis." };
-    if (is_loose(from.map((place) => [1, ...place]))) return on_line;
+    const on_line = "The marks lie on one line. Set one that is away from it, on the other axis.";
+    if (is_loose(from.map((place) => [1, ...place]))) return { refused: on_line };
     if (!is_scan && is_loose(from.flatMap(basis))) {
       return { refused: "Set the corner opposite the origin too, or three marks on each axis; with fewer only a flat-bed " +
         "scan can be read: tick it." };
@@ -103,22 +103,24 @@ const maps = (() => {
     const first = solved(from, to, CLICK, tilt ** -2);
     const { found, off, squares } = solved(from, to, sigma_of(first), tilt ** -2);
     const sigma = sigma_of({ squares });
-    const most = marks.length < 5 ? MOST_TILTS * tilt : 0.9;
-    if (!(Math.hypot(found[6], found[7]) < most)) {
-      return { refused: "The marks do not fit each other: set them again, or correct their numbers." };
-    }
+    const wrong = sigma > POOR && marks.length > 4 ? worst(from, to, tilt ** -2) : null;
     const [a, b, c, d, e, f, g, h] = found;
-    const sine = ((a - g * c) * (e - h * f) - (b - h * c) * (d - g * f)) / Math.hypot(a - g * c, d - g * f) /
-      Math.hypot(b - h * c, e - h * f);
-    if (sine > LEVEL) return { refused: "The picture would be mirrored: are two marks exchanged, or is a sign wrong?" };
-    if (!(sine < -LEVEL)) return on_line;
+    const [x_axis, y_axis] = [[a - g * c, d - g * f], [b - h * c, e - h * f]];
+    const sine = (x_axis[0] * y_axis[1] - x_axis[1] * y_axis[0]) / Math.hypot(...x_axis) / Math.hypot(...y_axis);
+    const problems = [
+      [!(Math.hypot(g, h) < (marks.length < 5 ? MOST_TILTS * tilt : 0.9)),
+        "The marks do not fit each other: set them again, or correct their numbers."],
+      [sine > LEVEL, "The picture would be mirrored: are two marks exchanged, or is a sign wrong?"],
+      [!(sine < -LEVEL), on_line],
+    ].filter(([is_so]) => is_so);
+    if (problems.length) return { refused: problems[0][1], worst: wrong };
     const back = inverse([[a, b, c], [d, e, f], [g, h, 1]]).flat().map((one, _, all) => one / all[8]);
     const to_pixels = (point) => image(found, scaled(point)).map((one, i) => one + middle[i]);
     const to_axes = (place) =>
       image(back, place.map((one, i) => one - middle[i])).map((one, i) => one * half[i] + mid[i]);
     // Units of the axes for a pixel.
     const scale = ([u, v]) => {
-      const [right, left, down, up] = [[0.5, 0], [-0.5, 0], [0, 0.5], [0, -0.5]].map(([a, b]) => to_axes([u + a, v + b]));
+      const [right, left, down, up] = [[u + 0.5, v], [u - 0.5, v], [u, v + 0.5], [u, v - 0.5]].map(to_axes);
       return [0, 1].map((i) => Math.hypot(right[i] - left[i], down[i] - up[i]));
     };
     // By how much errors of the unknowns move a point along both axes, and their covariance if marks have these sigmas.
@@ -127,8 +129,7 @@ const maps = (() => {
       from.flatMap((place) => basis(place).map((row, i) => row.map((one) => one * half[i] / sigmas[i]))), tilt ** -2));
     return {
       tilt, freedom, sigma, off: off.map((one) => Math.hypot(...one)), residual: Math.sqrt(squares / marks.length),
-      worst: sigma > POOR && marks.length > 4 ? worst(from, to, tilt ** -2) : null,
-      to_pixels, to_axes, scale, shifts, covariance,
+      worst: wrong, to_pixels, to_axes, scale, shifts, covariance,
     };
   }
 

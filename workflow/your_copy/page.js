@@ -88,7 +88,9 @@
     draw_loupe();
     const [first, second] = state.readings.map(({ length }) => length);
     const [unread, line] = [Boolean(closed || map.refused || !state.series), is_line()];
-    set("disabled", { trace: unread, save: unread, "export-take": unread, second: !first, picture: closed, "save-all": closed, undo: !past.length });
+    set("disabled", {
+      trace: unread, save: unread, "export-take": unread, second: !first, picture: closed, "save-all": closed, undo: !past.length,
+    });
     set("hidden", {
       second: line, "with-follow": !line, "with-width": !line, trace: !state.follow,
       "with-incidence": !chosen_series()?.open.includes("incidence"),
@@ -124,9 +126,9 @@
     if (state.mode === "marks") {
       const { x = null, y = null } = state.marks[state.next] ?? {};
       const where = x === null || y === null ? "a further mark" : `${name_of(panel().x)} ${x}, ${name_of(panel().y)} ${y}`;
-      return `Click where ${where} stands.`;
+      return `${worst(map)} Click where ${where} stands.`;
     }
-    if (map.refused || map.worst) return map.refused ?? worst(map);
+    if (map.refused || map.worst) return worst(map) || map.refused;
     if (state.mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
     const how = state.follow ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
     const which = is_line() ? "Reading" : `${state.second ? "Second" : "First"} reading`;
@@ -156,9 +158,9 @@
     });
     const count = placed().length;
     get("fit").className = map.worst || (map.refused && count > 2) ? "bad" : "";
-    const quality = map.freedom ? `${count} marks, residual ${map.residual?.toFixed(2)} px. ${worst(map)}`
-      : `${count} marks. A further one would show how good they are.`;
-    get("fit").textContent = map.refused ?? quality;
+    const quality = () => (map.freedom ? `${count} marks, residual ${map.residual.toFixed(2)} px. ${worst(map)}`
+      : `${count} marks. A further one would show how good they are.`);
+    get("fit").textContent = map.refused ? worst(map) || map.refused : quality();
   }
 
   const style_of = ({ line }, i) => `curve c${i % 6} ${line}`;
