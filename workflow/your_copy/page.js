@@ -128,7 +128,7 @@
       const where = x === null || y === null ? "a further mark" : `${name_of(panel().x)} ${x}, ${name_of(panel().y)} ${y}`;
       return `${worst(map)} Click where ${where} stands.`;
     }
-    if (map.refused || map.worst) return worst(map) || map.refused;
+    if (map.refused || map.worst) return `${map.refused ?? ""} ${worst(map)}`;
     if (state.mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
     const how = state.follow ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
     const which = is_line() ? "Reading" : `${state.second ? "Second" : "First"} reading`;
@@ -158,9 +158,9 @@
     });
     const count = placed().length;
     get("fit").className = map.worst || (map.refused && count > 2) ? "bad" : "";
-    const quality = () => (map.freedom ? `${count} marks, residual ${map.residual.toFixed(2)} px. ${worst(map)}`
+    const quality = () => (map.freedom ? `${count} marks, residual ${map.residual.toFixed(2)} px.`
       : `${count} marks. A further one would show how good they are.`);
-    get("fit").textContent = map.refused ? worst(map) || map.refused : quality();
+    get("fit").textContent = `${map.refused ?? quality()} ${worst(map)}`;
   }
 
   const style_of = ({ line }, i) => `curve c${i % 6} ${line}`;
