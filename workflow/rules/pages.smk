@@ -120,6 +120,12 @@ rule your_copy:
             for source, stated in SOURCES.items()
             for name, entry in stated.get("series", {}).items()
         },
+        allowances=lambda _: {
+            entry["reference"]: entry["allowance"]
+            for entry in config["comparisons"].values()
+            if "allowance" in entry
+        },
+        significance=lambda _: config["significance"],
         content=digest("workflow/scripts/write_your_copy.py"),
     script:
         "../scripts/write_your_copy.py"
