@@ -36,19 +36,32 @@ from tests.workflow.project import ROOT, config, sources
 PAGE = ROOT / "figures/your_copy.html"
 FOLDER = ROOT / "workflow/your_copy"
 WIDTH = 700.0  # of a panel, in pixels; half of it is its height
+SIZE = int(WIDTH + 120), int(WIDTH / 2 + 120)  # of the picture
+STEP = 2.0  # px, of the drawn line
+BEND = 0.6  # rad in a step: there a reader clicks
 # A trial as the page goes through it: the file, or why the page makes none.
 READ = """
 const random = (seed) => () => (seed = (1103515245 * seed + 12345) % 2147483648) / 2147483648;
-function colours({ first, heights, slopes, width, seed }) {
-  const next = random(seed);
+function colours({ chain, ink, size: [width, height], seed }) {
+  const [next, reach] = [random(seed), ink / 2 + 1];
+  const far = new Float32Array(width * height).fill(reach);
+  chain.slice(1).forEach(([c, d], i) => {
+    const [a, b] = chain[i];
+    for (let y = Math.floor(Math.min(b, d) - reach); y <= Math.max(b, d) + reach; y++) {
+      for (let x = Math.floor(Math.min(a, c) - reach); x <= Math.max(a, c) + reach; x++) {
+        const at = y * width + x;
+        far[at] = Math.min(far[at], trace.beside([x + 0.5, y + 0.5], [[a, b], [c, d]]));
+      }
+    }
+  });
+  const grey = far.map((one) => 235 - 200 * Math.min(1, Math.max(0, ink / 2 - one + 0.5))
+    + 16 * (next() + next() + next() - 1.5));
   return ([u, v]) => {
-    const i = Math.min(heights.length - 2, Math.max(0, Math.floor(u - first)));
-    const share = u - first - i;
-    const height = heights[i] + share * (heights[i + 1] - heights[i]);
-    const far = Math.abs(v - height) / Math.hypot(1, slopes[i]);
-    const ink = Math.min(1, Math.max(0, width / 2 - far + 0.5));
-    const grey = 235 - 200 * ink + 16 * (next() + next() + next() - 1.5);
-    return [grey, grey, grey];
+    const [x, y] = [Math.floor(u - 0.5), Math.floor(v - 0.5)];
+    const [p, q, at] = [u - 0.5 - x, v - 0.5 - y, y * width + x];
+    const value = (1 - q) * ((1 - p) * grey[at] + p * grey[at + 1])
+      + q * ((1 - p) * grey[at + width] + p * grey[at + width + 1]);
+    return [value, value, value];
   };
 }
 function read({ marks, range, clicks, scan, series, incidence }) {
@@ -100,7 +113,7 @@ class Camera(NamedTuple):
 
     def pixels(self, places):
         u, v, w = self.matrix @ [*np.transpose(places), np.ones(len(places))]
-        return np.transpose([u / w, v / w]) + WIDTH
+        return np.transpose([u / w, v / w]) + np.divide(SIZE, 2)
 
 
 @functools.cache
@@ -159,20 +172,19 @@ class Reader(NamedTuple):
     def line(self, series, curve, width, count=9):
         """A line that the page follows between clicks on the curve, whose places are values."""
         pixels = self.camera.pixels(scaled(self.panel, curve))
-        kept = np.append(True, np.diff(pixels[:, 0]) > 1e-6)  # one height for each place along x
-        pixels = pixels[kept]
-        slopes = np.gradient(pixels[:, 1], pixels[:, 0])
-        off = self.rng.normal(0.0, width / 4)
-        across = np.transpose([-slopes, np.ones_like(slopes)]) / np.hypot(1, slopes)[:, None]
-        drawn = pixels + off * across
-        grid = np.arange(np.floor(drawn[0, 0]), np.ceil(drawn[-1, 0]) + 1)
-        heights = np.interp(grid, *drawn.T)
-        along = np.append(0.0, np.cumsum(np.hypot(*np.diff(drawn, axis=0).T)))
-        at = np.linspace(0.02, 0.98, count) * along[-1]
-        clicks = np.transpose([np.interp(at, along, axis) for axis in drawn.T])
-        clicks += self.rng.normal(0.0, self.click, clicks.shape)
-        scan = {"first": grid[0], "heights": heights.tolist(), "width": width}
-        scan |= {"slopes": np.gradient(heights).tolist(), "seed": int(self.rng.integers(1, 2**31))}
+        along = np.append(0.0, np.cumsum(np.hypot(*np.diff(pixels, axis=0).T)))
+        kept = np.append(True, np.diff(along) > 0)
+        even = np.linspace(0.0, along[-1], int(along[-1] / STEP))
+        chain = np.transpose([np.interp(even, along[kept], axis) for axis in pixels[kept].T])
+        ways = np.gradient(chain, axis=0)
+        across = np.transpose([-ways[:, 1], ways[:, 0]]) / np.hypot(*ways.T)[:, None]
+        drawn = chain + self.rng.normal(0.0, width / 4) * across
+        turned = np.abs(np.diff(np.unwrap(np.arctan2(*np.diff(drawn, axis=0).T)))) > BEND
+        even = np.linspace(0.02 * len(drawn), 0.98 * len(drawn), count).astype(int)
+        clicked = drawn[np.union1d(even, np.flatnonzero(turned) + 1)]
+        clicks = clicked + self.rng.normal(0.0, self.click, clicked.shape)
+        scan = {"chain": drawn.tolist(), "ink": width, "size": SIZE}
+        scan |= {"seed": int(self.rng.integers(1, 2**31))}
         return self.trial(series, clicks=[clicks.tolist(), []], scan=scan)
 
 
@@ -239,7 +251,7 @@ def whole_run(seed, factors=()):
         if key not in readers:
             marks = scaled(panel, panel["marks"])
             readers[key] = Reader.of(rng, panel, tilt, marks, click)
-        curve = true_curve(name, series) * [1.0, dict(factors).get(series["id"], 1.0)]
+        curve = true_curve(name, series["columns"]) * [1.0, dict(factors).get(series["id"], 1.0)]
         (low, high), reader = panel["range"][0], readers[key]
         if series["line"]:
             curve = curve[(curve[:, 0] >= low) & (curve[:, 0] <= high)]
@@ -254,11 +266,10 @@ def whole_run(seed, factors=()):
     return found
 
 
-@functools.cache
-def true_curve(name, series):
+def true_curve(name, columns):
+    """The curve with which a comparison is made, as a print shows it that is right."""
     entry = config()["comparisons"][name]
-    own = tables.select(solved(entry["figure"]), **entry["curve"])
-    return own[series["columns"]].dropna().to_numpy()
+    return tables.select(solved(entry["figure"]), **entry["curve"])[columns].dropna().to_numpy()
 
 
 @functools.cache
@@ -302,7 +313,7 @@ ROWS = list(itertools.product(MARKS, CLICKS, TILTS))
 
 
 def share(verdicts, *wanted):
-    """How many of the readings that the page has made a file of have such a verdict, in per cent."""
+    """How many of the readings of which there is a file have such a verdict, in per cent."""
     made = [one for one in verdicts if one in set(Verdict)]
     return 100 * sum(one in wanted for one in made) / len(made) if made else np.nan
 
