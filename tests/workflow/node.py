@@ -1,4 +1,4 @@
-"""The scripts of the explorer without a browser: run by the node that comes with Playwright."""
+"""Scripts of pages without a browser: run by the node that comes with Playwright."""
 
 import contextlib
 import json
@@ -50,10 +50,9 @@ require("node:readline").createInterface({ input: process.stdin }).on("line", (l
 class Scripts:
     """The scripts in a running process."""
 
-    def __init__(self, process):
+    def __init__(self, process, texts):
         self._process = process
-        texts = [(FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS]
-        self.evaluate("\n".join([BASE, *texts, "null"]))
+        self.evaluate("\n".join([*texts, "null"]))
 
     def evaluate(self, expression):
         """Value of a JavaScript expression; what it throws, or a minute without an end, raises."""
@@ -70,12 +69,14 @@ class Scripts:
 
 
 @contextlib.contextmanager
-def scripts():
-    """The scripts, loaded anew."""
+def scripts(paths=()):
+    """The scripts at these paths, loaded anew; without paths those of the explorer."""
+    paths, base = (paths, "") if paths else ([FOLDER / f"{name}.js" for name in SCRIPTS], BASE)
+    texts = [base, *(Path(path).read_text(encoding="utf-8") for path in paths)]
     node, _ = compute_driver_executable()
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([node, "-e", PROGRAM], text=True, encoding="utf-8", **pipes) as process:
-        yield Scripts(process)
+        yield Scripts(process, texts)
 
 
 def expression(name, old="", new=""):

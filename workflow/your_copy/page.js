@@ -255,7 +255,7 @@
   }
 
   const writes = (target) => target.matches("input:not([type=checkbox], [type=radio], [type=range], [type=file]), textarea");
-  const typed = (text) => (text.trim() === "" ? NaN : Number(text.replace(/[\u2212\u2013]/, "-").replace(",", ".")));
+  const typed = (text) => numbers.read(text);
 
   function press(event) {
     if ((event.ctrlKey || event.metaKey) && event.key === "z" && !writes(event.target)) undo();
@@ -294,14 +294,14 @@
   });
 
   function read_export(text) {
-    imported = exports_of_others.read(text);
-    const { columns = [], refused, said: words } = imported;
+    imported = exports_of_others.read(text, [panel().x, panel().y]);
+    const { columns = [], chosen, refused, said: words } = imported;
     get("others").open = true;
     get("export-said").textContent = refused ?? words;
     get("export-said").className = refused ? "bad" : "";
     get("export-columns").hidden = Boolean(refused);
     for (const [i, id] of ["export-x", "export-y"].entries()) {
-      get(id).replaceChildren(...columns.map(({ name }, k) => new Option(name, k, k === i, k === i)));
+      get(id).replaceChildren(...columns.map(({ name }, k) => new Option(name, k, k === chosen[i], k === chosen[i])));
     }
   }
 
