@@ -204,6 +204,24 @@ def test_a_line_is_followed_and_judged(wrong, wanted, opened, first_run, tmp_pat
     assert verdict(path, first_run) == wanted
 
 
+def test_undo_takes_back_a_followed_line_and_a_lost_line_names_the_click(opened):
+    y = lumped.rebound(X, 3.5, 1.21, 0.5).velocity
+    reader = opened("fig6", [(X[:200], y[:200], "-")])
+    page, circles, clicks = reader.page, "#signs circle", "#signs .click"
+    page.check("#mode-read")
+    page.select_option("#series", LOSSY)
+    page.set_checked("#follow", True)
+    reader.click([(X[i], y[i]) for i in (25, 75, 125, 175)])
+    page.click("#trace")
+    assert 10 <= page.locator(circles).count() <= 15 and page.locator(clicks).count() == 0
+    assert "pixels" in reader.text("#task") and "left out" in reader.text("#task")
+    page.click("#undo")
+    assert page.locator(circles).count() == 0 and page.locator(clicks).count() == 4
+    reader.click([(X[260], y[260])])  # the line has ended before
+    page.click("#trace")
+    assert "between clicks 4 and 5: move click 5" in reader.text("#refused")
+
+
 def test_marks_on_a_line_are_refused(opened):
     reader = opened("fig5", [], marks=MARKS[:3])
     assert "one line" in reader.text("#fit") and reader.page.locator("#lines > *").count() == 0

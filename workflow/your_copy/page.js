@@ -11,7 +11,7 @@
   let state = null;
   const past = []; // states before, as text
   let kept = {}; // the last states of other panels
-  let dark = null; // darkness of the picture, once a line is followed
+  let colour = null; // of the picture at each place, once a line is followed
   let imported = null; // columns of an export
 
   const panel = () => DATA.panels[state.panel];
@@ -277,14 +277,16 @@
     if (state.clicks.length < 2) {
       return refuse("Click the beginning and the end of the line first, and between where it bends.");
     }
-    dark ??= trace.darkness(picture);
-    const { points, width, lost } = trace.follow(dark, state.clicks);
+    colour ??= colours_of(picture);
+    const { points, width, length, left_out, lost, leg, move } = trace.follow(colour, state.clicks);
     if (lost) {
-      const place = lost.map((one) => one.toFixed(0)).join(", ");
-      return refuse(`The line is lost at pixel ${place}. Set the clicks nearer to its middle, or more of them.`);
+      return refuse(`The line is lost at pixel ${lost.map(Math.round).join(", ")}, between clicks ${leg} and ${leg + 1}: ` +
+        `move click ${move} nearer to the middle of the line, or add one between.`);
     }
     refuse("");
-    return take(points, width, "followed along the line");
+    take(points, width, "followed along the line");
+    get("task").textContent = `${points.length} points of a line of ${Math.round(length)} pixels; ` +
+      `${Math.round(left_out)} of these are left out: crossings, markers, gaps between dashes.`;
   }
 
   const take = (points, width, by) => change(() => {
@@ -335,7 +337,7 @@
       state = { ...fresh(name), series, follow, off };
       past.length = 0;
       kept = {};
-      dark = null;
+      colour = null;
       refuse("");
       set_zoom();
     };

@@ -17,8 +17,8 @@ from stronge1994.tables import Table
 
 Panel: TypeAlias = dict[str, Any]
 # Scripts of the page, each after those that it uses; the first is the explorer's.
-SCRIPTS = ["files.js", "map.js", "trace.js", "papaparse.min.js", "numbers.js", "exports.js"]
-SCRIPTS += ["readings.js", "page.js"]
+SCRIPTS = ["files.js", "map.js", "colours.js", "trace.js", "papaparse.min.js", "numbers.js"]
+SCRIPTS += ["exports.js", "readings.js", "page.js"]
 WORDS = ("name", "line", "series")  # of a curve
 DIGITS = 6  # of the curves, more than a print has
 # What the run refuses, and so the page: texts, sigmas as a share of their range, points outside it.
