@@ -55,7 +55,8 @@ const trace = (() => {
       const ahead = () => way[0] * (goal[0] - here[0]) + way[1] * (goal[1] - here[1]);
       // A line that has a corner at a click does not go on as before, but towards the next one.
       const next = here.map((one, n) => one + 2 * usual * way[n]);
-      if (ahead() < 0.7 * distance(here, goal) && !is_line(across(colour, next, way, half, level))) way = direction(here, goal);
+      const turned = ahead() < 0.7 * distance(here, goal);
+      if (turned && !is_line(across(colour, next, way, half, level))) way = direction(here, goal);
       for (let left = 3 * distance(here, goal); ahead() > 0 || distance(here, goal) > half / 2; left -= step) {
         const found = across(colour, here, way, half, level);
         // Behind a gap the line may be farther off, if no other ink is near.
@@ -72,7 +73,9 @@ const trace = (() => {
           left_out += missed ? part : 0;
           points.push({ here, length, width: found.width });
           level += 0.1 * (found.level - level); // the light may be uneven
-          if (points.length > 4) way = direction(points.at(-Math.min(points.length, 9, run > 4 ? run : 9)).here, here);
+          // The way of the last points, of those behind the last gap where these are enough.
+          const back = Math.min(points.length, run > 4 ? run : 9, 9);
+          if (points.length > 4) way = direction(points.at(-back).here, here);
         }
         [missed, run] = good ? [0, run + 1] : [missed + step, 0];
         here = [here[0] + step * way[0], here[1] + step * way[1]];
@@ -84,7 +87,8 @@ const trace = (() => {
     const kept = Array.from({ length: COUNT }, (_, i) => smallest(
       points.filter((one) => Math.abs(one.length / length - i / (COUNT - 1)) < 0.25 / COUNT),
       (one) => Math.abs(one.width - width))).filter(Boolean);
-    return kept.length > 1 ? { points: kept.map((one) => one.here), width, length, left_out } : { lost: here, leg: 1, move: 1 };
+    if (kept.length < 2) return { lost: here, leg: 1, move: 1 };
+    return { points: kept.map((one) => one.here), width, length, left_out };
   }
 
   // Distance of a point from a chain of points.
