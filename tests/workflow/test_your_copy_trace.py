@@ -47,13 +47,13 @@ def painted(paper, *layers):
 
 @pytest.fixture
 def followed(tab):
-    """What the page finds in a picture from clicks at these x, each half a pixel off the line."""
+    """What the page finds from clicks at these x, half a pixel off the line, the last one more."""
     tab.problems.clear()
     tab.open("about:blank")
     for script in SCRIPTS:
         tab.page.add_script_tag(content=script.read_text(encoding="utf-8"))
 
-    def follow(picture, at=(20, 200, 400, 600, 760)):
+    def follow(picture, at=(20, 200, 400, 600, 760), last=0.0):
         noise = np.random.default_rng(0).normal(0, 5, U.shape)
         noisy = np.clip(picture + noise[..., None], 0, 255).astype(np.uint8)
         file = io.BytesIO()
@@ -61,6 +61,7 @@ def followed(tab):
         Image.fromarray(noisy).save(file, "png" if picture.shape[-1] == 4 else "jpeg", quality=80)
         address = f"data:image/*;base64,{base64.b64encode(file.getvalue()).decode()}"
         clicks = [[u, curve(u) + 0.5 * (-1) ** i] for i, u in enumerate(at)]
+        clicks[-1][1] += last
         return tab.page.evaluate(FOLLOW, [address, clicks])
 
     yield follow
@@ -136,9 +137,11 @@ def test_a_line_that_ends_is_lost_between_the_clicks_that_are_named(followed):
     assert found["leg"] == 1 and found["move"] == 1
 
 
-def test_points_end_at_the_last_click(followed):
+def test_the_line_is_left_at_the_last_click(followed):
     u, _ = np.transpose(followed(PRINTS["even light"][0], at=(20, 200, 400))["points"])
     assert 385 < u[-1] < 401
+    found = followed(PRINTS["even light"][0], at=(20, 200, 400), last=20)
+    assert found["move"] == 3 and 380 < found["lost"][0] < 420
 
 
 def test_a_picture_of_forty_megapixels_is_followed(tab, followed):
