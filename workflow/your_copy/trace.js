@@ -85,7 +85,7 @@ const trace = (() => {
     const width = median(points.map((one) => one.width));
     // Even places along the line. Beside a gap the middle is less sure, and the width is not that of the line.
     const kept = Array.from({ length: COUNT }, (_, i) => smallest(
-      points.filter((one) => Math.abs(one.length / length - i / (COUNT - 1)) < 0.25 / COUNT),
+      points.filter((one) => Math.abs(one.length / length - i / (COUNT - 1)) < 0.1 / COUNT),
       (one) => Math.abs(one.width - width))).filter(Boolean);
     if (kept.length < 2) return { lost: here, leg: 1, move: 1 };
     return { points: kept.map((one) => one.here), width, length, left_out };
