@@ -379,6 +379,24 @@ def test_a_line_is_followed_and_judged(wrong, wanted, opened, first_run, tmp_pat
     assert verdict(path, first_run) == wanted
 
 
+def test_undo_takes_back_a_followed_line_and_a_lost_line_names_the_click(opened):
+    y = lumped.rebound(X, 3.5, 1.21, 0.5).velocity
+    reader = opened("fig6", [(X[:200], y[:200], "-")])
+    page, circles, clicks = reader.page, "#signs circle", "#signs .click"
+    page.check("#mode-read")
+    page.select_option("#series", LOSSY)
+    page.set_checked("#follow", True)
+    reader.click([(X[i], y[i]) for i in (25, 75, 125, 175)])
+    page.click("#trace")
+    assert 10 <= page.locator(circles).count() <= 15 and page.locator(clicks).count() == 0
+    assert "pixels" in reader.text("#task") and "left out" in reader.text("#task")
+    page.click("#undo")
+    assert page.locator(circles).count() == 0 and page.locator(clicks).count() == 4
+    reader.click([(X[260], y[260])])  # the line has ended before
+    page.click("#trace")
+    assert "between clicks 4 and 5: move click 5" in reader.text("#refused")
+
+
 def test_marks_are_asked_for_and_a_wrong_one_is_named(opened):
     reader = opened("fig5", [], marks=MARKS[:3])
     page = reader.page
@@ -553,36 +571,29 @@ def test_a_clicked_line_needs_its_width_and_the_picture_has_the_name_of_its_seri
         assert np.any((red[..., 0] - red[..., 1] > 100) & (red[..., 2] < 100))
 
 
-EXPORTS = {
-    "WebPlotDigitizer": "0.5, 0.1\n1.0, -0.2\n",
-    "with a header": "x, y\n0.5, 0.1\n1.0, -0.2\n",
-    "all data sets": "rubber,,lumped,\nX,Y,X,Y\n0.5,0.1,0,3\n1.0,-0.2,,\n",
-    "Engauge": "x,Curve1\n0.5,0.1\n1,-0.2\n",
-    "tabs": "X\tY\r\n0,5\t0,1\r\n1\t-0,2\r\n",
-    "semicolons": "x;y\n0,5;0,1\n1,0;\u22120,2\n",
-    "quotes": '\ufeff"x","y"\n"0.5","0.1"\n"1","-2e-1"\n',
-    "exchanged": "y,x\n0.1,0.5\n-0.2,1\n",
-}
-REFUSED = ["", "nothing", "1\n2\n", "x,y\n0,5,0,1\n1,5,-0,2\n", "0,5,0,1\n1,5,-0,2\n", "1,2\n3,b\n"]
-
-
-def test_exports_of_others_are_taken_or_refused(opened):
+def test_an_export_of_another_program_is_taken_or_refused(opened):
+    """More of them are in test_your_copy_import.py."""
     reader = opened("fig5", [])
     page = reader.page
     page.click("#others summary")
-    wanted = [reader.pixel(0.5, 0.1), reader.pixel(1.0, -0.2)]
     place = "(one) => [+one.getAttribute('cx'), +one.getAttribute('cy')]"
-    for name, export in EXPORTS.items():
+    wanted = [reader.pixel(0.5, 0.1), reader.pixel(1.0, -0.2)]
+    exports = {"y,x\n0.1,0.5\n-0.2,1\n": False, "a;b\n0,1;0,5\n-0,2;1\n": True}
+    for export, exchanged in exports.items():
         page.fill("#export", export)
-        if name == "exchanged":
+        if exchanged:
             page.click("#exchange")
         page.click("#export-take")
         taken = page.evaluate(f"[...document.querySelectorAll('#signs circle')].map({place})")
-        assert np.shape(taken) == (2, 2) and np.abs(np.subtract(taken, wanted)).max() < 1, name
-    for export in REFUSED:
-        page.fill("#export", export)
-        assert reader.text("#export-said").endswith("."), export
-        assert not page.is_visible("#export-take"), export
+        assert np.shape(taken) == (2, 2) and np.abs(np.subtract(taken, wanted)).max() < 1, export
+    page.fill("#export", "1,2\n3,b\n")
+    assert reader.text("#export-said").endswith("not all cells are numbers.")
+    assert not page.is_visible("#export-take")
+    for wrong in ("0x10", "1,000"):
+        page.fill(".mark-x >> nth=0", wrong)
+        page.press(".mark-x >> nth=0", "Tab")
+        assert f"“{wrong}” is no number" in reader.text("#refused")
+        assert page.input_value(".mark-x >> nth=0") == "0"
 
 
 def test_curves_are_hidden_marks_moved_and_the_picture_saved_on_a_phone_too(opened, tab, tmp_path):

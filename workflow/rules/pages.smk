@@ -104,7 +104,7 @@ rule your_copy:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
         versions="results/versions.json",
-        sources=sorted(map(str, Path("workflow/your_copy").glob("*.*"))) + ["workflow/explorer/files.js"],
+        sources=sorted(map(str, Path("workflow/your_copy").glob("**/*.*"))) + ["workflow/explorer/files.js"],
         curves=expand("results/curves/{figure}.csv", figure=PAPER),
         parts=EVERY_PAGE,
     output:

@@ -14,7 +14,7 @@
   const pictures = []; // all that were opened
   let shown = null; // number of the one that is seen
   const past = []; // all this before, as text
-  let dark = null; // darkness of the picture, once a line is followed
+  let colour = null; // of the picture at each place, once a line is followed
   let imported = null; // columns of an export
 
   const panel = () => DATA.panels[state.panel];
@@ -300,7 +300,7 @@
   }
 
   const writes = (target) => target.matches("input:not([type=checkbox], [type=radio], [type=range], [type=file]), textarea");
-  const typed = (text) => (text.trim() === "" ? NaN : Number(text.replace(/[\u2212\u2013]/, "-").replace(",", ".")));
+  const typed = (text) => numbers.read(text);
 
   function press(event) {
     const is_z = /^[a-z]$/i.test(event.key) ? event.key.toLowerCase() === "z" : event.code === "KeyZ";
@@ -323,14 +323,16 @@
     if (state.clicks.length < 2) {
       return refuse("Click the beginning and the end of the line first, and between where it bends.");
     }
-    dark ??= trace.darkness(picture);
-    const { points, width, lost } = trace.follow(dark, state.clicks);
+    colour ??= colours_of(picture);
+    const { points, width, length, left_out, lost, leg, move } = trace.follow(colour, state.clicks);
     if (lost) {
-      const place = lost.map((one) => one.toFixed(0)).join(", ");
-      return refuse(`The line is lost at pixel ${place}. Set the clicks nearer to its middle, or more of them.`);
+      return refuse(`The line is lost at pixel ${lost.map(Math.round).join(", ")}, between clicks ${leg} and ${leg + 1}: ` +
+        `move click ${move} nearer to the middle of the line, or add one between.`);
     }
     refuse("");
-    return take(points, width, "followed along the line");
+    take(points, width, "followed along the line");
+    get("task").textContent = `${points.length} points of a line of ${Math.round(length)} pixels; ` +
+      `${Math.round(left_out)} of these are left out: crossings, markers, gaps between dashes.`;
   }
 
   const take = (points, width, by) => change(() => {
@@ -340,14 +342,14 @@
   });
 
   function read_export(text) {
-    imported = exports_of_others.read(text);
-    const { columns = [], refused, said: words } = imported;
+    imported = exports_of_others.read(text, [panel().x, panel().y]);
+    const { columns = [], chosen, refused, said: words } = imported;
     get("others").open = true;
     get("export-said").textContent = refused ?? words;
     get("export-said").className = refused ? "bad" : "";
     get("export-columns").hidden = Boolean(refused);
     for (const [i, id] of ["export-x", "export-y"].entries()) {
-      get(id).replaceChildren(...columns.map(({ name }, k) => new Option(name, k, k === i, k === i)));
+      get(id).replaceChildren(...columns.map(({ name }, k) => new Option(name, k, k === chosen[i], k === chosen[i])));
     }
   }
 
@@ -398,7 +400,7 @@
     const { naturalWidth: width, naturalHeight: height, src: href } = picture;
     sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
     for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
-    dark = null;
+    colour = null;
     set_zoom();
   }
 

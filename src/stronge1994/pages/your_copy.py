@@ -17,7 +17,8 @@ from stronge1994.tables import Table
 
 Panel: TypeAlias = dict[str, Any]
 # Scripts of the page, each after those that it uses; the first is the explorer's.
-SCRIPTS = ("files.js", "map.js", "trace.js", "exports.js", "readings.js", "page.js")
+SCRIPTS = ["files.js", "map.js", "colours.js", "trace.js", "papaparse.min.js", "numbers.js"]
+SCRIPTS += ["exports.js", "readings.js", "page.js"]
 WORDS = ("name", "line", "series")  # of a curve
 DIGITS = 6  # of the curves, more than a print has
 # Of the table that tells which error a reading would show: points of a line, as many as the page
@@ -45,6 +46,10 @@ def page(
     run takes away, the page has the others.
     """
     texts = {Path(path).name: Markup(Path(path).read_text(encoding="utf-8")) for path in paths}
+    library = "papaparse.min.js"  # its licence goes wherever it goes
+    texts[library] = (
+        Markup("/*\n") + texts["LICENSE.papaparse.txt"] + Markup("*/\n") + texts[library]
+    )
     stated = strict_yaml.load(str(texts["panels.yaml"]))["panels"]
     read = {figure: tables.read(path) for figure, path in curves.items()}
     panels = {name: _panel(panel, read[panel["figure"]], series) for name, panel in stated.items()}
