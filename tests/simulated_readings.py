@@ -70,7 +70,7 @@ function read({ marks, range, clicks, scan, series, incidence }) {
   let given = { readings: clicks, widths: [0, 0], by: "" };
   if (scan) {
     const { points, width, lost } = trace.follow(colours(scan), clicks[0]);
-    if (lost) return { refused: "lost" };
+    if (lost) return { refused: "the line is lost" };
     given = { readings: [points, []], widths: [width, 0], by: "followed along the line" };
   }
   const found = readings.judged(map, given, Boolean(scan), 1000);
@@ -254,7 +254,8 @@ def whole_run(seed, factors=()):
         curve = true_curve(name, series["columns"]) * [1.0, dict(factors).get(series["id"], 1.0)]
         (low, high), reader = panel["range"][0], readers[key]
         if series["line"]:
-            curve = curve[(curve[:, 0] >= low) & (curve[:, 0] <= high)]
+            shown = np.all(np.abs(scaled(panel, curve)) <= 1.0, axis=1)
+            curve = curve[shown]
             given.append(reader.line(series, curve, rng.choice(LINES), 15))
         else:
             x = low + (high - low) * np.linspace(0.05, 0.9, 9)

@@ -53,10 +53,12 @@ const trace = (() => {
     let [here, way, missed, run, length, left_out] = [clicks[0], ways[0], 0, 0, 0, 0];
     for (const [i, goal] of clicks.slice(1).entries()) {
       const ahead = () => way[0] * (goal[0] - here[0]) + way[1] * (goal[1] - here[1]);
-      // A line that has a corner at a click does not go on as before, but towards the next one.
+      // A line that has a corner at a click does not go on as before, but from there towards the next one.
       const next = here.map((one, n) => one + 2 * usual * way[n]);
       const turned = ahead() < 0.7 * distance(here, goal);
-      if (turned && !is_line(across(colour, next, way, half, level))) way = direction(here, goal);
+      if (turned && !is_line(across(colour, next, way, half, level))) {
+        [here, way, run] = [clicks[i], direction(clicks[i], goal), 0];
+      }
       for (let left = 3 * distance(here, goal); ahead() > 0 || distance(here, goal) > half / 2; left -= step) {
         const found = across(colour, here, way, half, level);
         // Behind a gap the line may be farther off, if no other ink is near.
@@ -73,9 +75,8 @@ const trace = (() => {
           left_out += missed ? part : 0;
           points.push({ here, length, width: found.width });
           level += 0.1 * (found.level - level); // the light may be uneven
-          // The way of the last points, of those behind the last gap where these are enough.
-          const back = Math.min(points.length, run > 4 ? run : 9, 9);
-          if (points.length > 4) way = direction(points.at(-back).here, here);
+          // The way of the last points behind a gap or a corner, once these are enough.
+          if (run > 4) way = direction(points.at(-Math.min(run, 9)).here, here);
         }
         [missed, run] = good ? [0, run + 1] : [missed + step, 0];
         here = [here[0] + step * way[0], here[1] + step * way[1]];
