@@ -37,27 +37,32 @@ PAGE = ROOT / "figures/your_copy.html"
 FOLDER = ROOT / "workflow/your_copy"
 WIDTH = 700.0  # of a panel, in pixels; half of it is its height
 SIZE = int(WIDTH + 120), int(WIDTH / 2 + 120)  # of the picture
-STEP = 2.0  # px, of the drawn line
+STEP = 4.0  # px, of the drawn line
 BEND = 0.6  # rad in a step: there a reader clicks
 # A trial as the page goes through it: the file, or why the page makes none.
 READ = """
 const random = (seed) => () => (seed = (1103515245 * seed + 12345) % 2147483648) / 2147483648;
 function colours({ chain, ink, size: [width, height], seed }) {
+  const { min, max, floor, hypot } = Math; // a global of node's vm is slow
   const [next, reach] = [random(seed), ink / 2 + 1];
   const far = new Float32Array(width * height).fill(reach);
-  chain.slice(1).forEach(([c, d], i) => {
-    const [a, b] = chain[i];
-    for (let y = Math.floor(Math.min(b, d) - reach); y <= Math.max(b, d) + reach; y++) {
-      for (let x = Math.floor(Math.min(a, c) - reach); x <= Math.max(a, c) + reach; x++) {
+  for (let i = 0; i + 1 < chain.length; i++) {
+    const [a, b, c, d] = [...chain[i], ...chain[i + 1]];
+    const squared = (c - a) ** 2 + (d - b) ** 2;
+    for (let y = floor(min(b, d) - reach); y <= max(b, d) + reach; y++) {
+      for (let x = floor(min(a, c) - reach); x <= max(a, c) + reach; x++) {
         const at = y * width + x;
-        far[at] = Math.min(far[at], trace.beside([x + 0.5, y + 0.5], [[a, b], [c, d]]));
+        const along = ((x + 0.5 - a) * (c - a) + (y + 0.5 - b) * (d - b)) / squared;
+        const share = min(1, max(0, along));
+        const gap = hypot(x + 0.5 - a - share * (c - a), y + 0.5 - b - share * (d - b));
+        if (gap < far[at]) far[at] = gap;
       }
     }
-  });
-  const grey = far.map((one) => 235 - 200 * Math.min(1, Math.max(0, ink / 2 - one + 0.5))
+  }
+  const grey = far.map((one) => 235 - 200 * min(1, max(0, ink / 2 - one + 0.5))
     + 16 * (next() + next() + next() - 1.5));
   return ([u, v]) => {
-    const [x, y] = [Math.floor(u - 0.5), Math.floor(v - 0.5)];
+    const [x, y] = [floor(u - 0.5), floor(v - 0.5)];
     const [p, q, at] = [u - 0.5 - x, v - 0.5 - y, y * width + x];
     const value = (1 - q) * ((1 - p) * grey[at] + p * grey[at + 1])
       + q * ((1 - p) * grey[at + width] + p * grey[at + width + 1]);
@@ -91,7 +96,8 @@ CLICKS = 0.3, 0.5, 1.0  # px, one sigma
 TILTS = 0.0, 3e-5, 1e-4  # per pixel
 POINTS = 1, 3, 9, 30, 57
 LINES = 1.2, 2.4, 5.0  # px
-RIGHT, WRONG, RUNS = 1000, 300, 300  # trials
+TRIALS = {"markers": (600, 100), "line": (200, 60)}  # of right and of wrong curves
+RUNS = 150
 WRONG_BY = 1.05
 
 
@@ -324,8 +330,9 @@ def row(place):
     found = []
     for number, column in enumerate(COLUMNS):
         seed = place * len(COLUMNS) + number
-        right = cell((ROWS[place], column), RIGHT, 1.0, 2 * seed)
-        wrong = cell((ROWS[place], column), WRONG, WRONG_BY, 2 * seed + 1)
+        setting, trials = (ROWS[place], column), TRIALS[column[0]]
+        right = cell(setting, trials[0], 1.0, 2 * seed)
+        wrong = cell(setting, trials[1], WRONG_BY, 2 * seed + 1)
         lost = 100 * sum(one not in set(Verdict) for one in right) / len(right)
         found.append((share(right, Verdict.FAILS), share(wrong, Verdict.FAILS), lost))
     return found

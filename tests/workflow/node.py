@@ -33,11 +33,11 @@ function impact_of(style, groups) {{
 # Answers each line, an expression, with its value or its error.
 PROGRAM = """
 const vm = require("node:vm");
-const context = vm.createContext();
+
 require("node:readline").createInterface({ input: process.stdin }).on("line", (line) => {
   let answer;
   try {
-    const value = vm.runInContext(JSON.parse(line), context, { timeout: 60000 });
+    const value = vm.runInThisContext(JSON.parse(line), { timeout: 60000 });
     answer = [JSON.stringify(value) ?? "null", null];
   } catch (error) {
     answer = [null, String(error.stack ?? error)];
