@@ -342,9 +342,7 @@ def main():
     if not PAGE.is_file():
         sys.exit(f"{PAGE} is missing: run snakemake first")
     names = [f"{size} points" if kind == "markers" else f"{size} px" for kind, size in COLUMNS]
-    print(
-        f"False alarms / power against {WRONG_BY:g} times the curve, in %; {RIGHT}, {WRONG} trials"
-    )
+    print(f"False alarms / power against {WRONG_BY:g} times the curve, in %; {TRIALS}")
     print("| marks | click, px | tilt per px |", " | ".join(names), "| refused |")
     with concurrent.futures.ProcessPoolExecutor(2) as both:
         for (marks, click, tilt), found in zip(ROWS, both.map(row, range(len(ROWS))), strict=True):
