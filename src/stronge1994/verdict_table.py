@@ -106,6 +106,16 @@ def chance(row: Row) -> str:
     return f"chi^2 {row['chi^2']} of {of}: p = {row['p']}"
 
 
+def noticed(row: Row) -> str:
+    """Which error of the curve a comparison would have found that found none.
+
+    >>> noticed({"verdict": "agrees", "would fail": "a curve 2 % larger"})
+    'a curve 2 % larger would have failed'
+    """
+    found_none = row["verdict"] in (Verdict.AGREES, Verdict.CANNOT_TELL)
+    return f"{row['would fail']} would have failed" if found_none and row["would fail"] else ""
+
+
 def problem(row: Row) -> str:
     """Why a row fails: its bound, or with a known difference that it was to stay as it was."""
     bound = f"a known difference with {row['bounds']}" if row["bounds"] else row["allowed"]
@@ -122,7 +132,8 @@ def text(rows: Sequence[Row]) -> str:
             f"{row['reference']} and the curve {row['curve']}" if row["curve"] else row["reference"]
         )
         asked = f"to agree: {row['allowed']}" if row["p"] else ""
-        parts = [measured(row), of if row["reference"] else "", asked, row["why"], row["entry"]]
+        of = of if row["reference"] else ""
+        parts = [measured(row), of, asked, noticed(row), row["why"], row["entry"]]
         told += lines(row["verdict"], row["comparison"], parts)
     return "\n".join(told)
 

@@ -123,7 +123,7 @@ def _measured(comparison: Comparison, parts: Sequence[Comparison], curves: Table
     if comparison.metric == Metric.RATIO:
         if len(parts) != 2:
             raise ValueError(f"a ratio needs two comparisons with its scale, here {len(parts)}")
-        return scales.ratio(*parts, curves=curves)
+        return scales.ratio(parts[0], parts[1], curves)
     return (scales.measure if comparison.scale else measure)(comparison, curves)
 
 

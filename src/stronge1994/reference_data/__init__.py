@@ -86,6 +86,7 @@ def load(folder: Path, schema: Schema) -> Source:
         if series["kind"] == "awaited" and file.name in names:
             every[name] = read = reading.filled(series, file)
             read["points"] = len(_read_points(Series(**read), file))
+            read["overlay"] = _overlay(file) if file.with_suffix(".png").name in names else None
         elif series["kind"] != "awaited":
             series["path"] = str(file)
             count = len(Series(**series).points())
@@ -93,7 +94,8 @@ def load(folder: Path, schema: Schema) -> Source:
                 where = f"{path}: series.{name}.points = {series.get('points')}"
                 raise SourceError(f"{where}: {series['path']} has {count} points")
     own = {f"{name}.csv" for name in every}
-    known = {"source.yaml", *own, *source.get("made_with", [])}
+    pictures = {f"{name}.png" for name in every}  # of readings, from figures/your_copy.html
+    known = {"source.yaml", *own, *pictures, *source.get("made_with", [])}
     for name in source.get("made_with", []):
         if not (folder / name).is_file():
             raise SourceError(f"{folder / name}: missing, and {path} says it is there")
@@ -139,6 +141,14 @@ def _read_points(series: Series, file: Path) -> Table:
         x, y = twice.iloc[0]
         raise SourceError(f"{file}: the point {x:g}, {y:g} stands twice; the second tells nothing")
     return points
+
+
+def _overlay(file: Path) -> str:
+    """The picture of a print under our curves, which lies beside a reading."""
+    picture = file.with_suffix(".png")
+    if not picture.read_bytes().startswith(b"\x89PNG"):
+        raise SourceError(f"{picture}: no PNG; figures/your_copy.html saves one")
+    return str(picture)
 
 
 def _refuse_sigma(where: str, axis: Axis) -> None:

@@ -122,7 +122,7 @@ class Series:
     ours computed it. `sigma_values` is the number of independent values from which the sigmas were
     estimated, None if they are known. `parameters` are those of the source, by name; `settings`
     are those of a figure for which alone the points hold. `calibration` is that of the picture in
-    which the points were read, if it is known.
+    which the points were read, if it is known; `overlay` is a picture of it under our curves.
     """
 
     kind: str
@@ -139,6 +139,7 @@ class Series:
     settings: dict[str, Any] = field(default_factory=dict)
     open: tuple[str, ...] = ()
     calibration: Calibration | None = None
+    overlay: str | None = None
 
     @property
     def ordinates(self) -> tuple[Axis, ...]:
