@@ -33,7 +33,7 @@ from stronge1994.verdict_table import Verdict
 from tests.workflow import node
 from tests.workflow.project import ROOT, config, sources
 
-PAGE = ROOT / "figures/your_copy.html"
+RUN = ROOT  # where a run was made
 FOLDER = ROOT / "workflow/your_copy"
 WIDTH = 700.0  # of a panel, in pixels; half of it is its height
 SIZE = int(WIDTH + 120), int(WIDTH / 2 + 120)  # of the picture
@@ -125,7 +125,7 @@ class Camera(NamedTuple):
 @functools.cache
 def page():
     """What the page knows: panels with their curves, and series that can be read there."""
-    text = PAGE.read_text(encoding="utf-8")
+    text = (RUN / "figures/your_copy.html").read_text(encoding="utf-8")
     return json.loads(re.search(r"const DATA = (\{.*\});\n", text)[1].replace("<\\/", "</"))
 
 
@@ -281,7 +281,7 @@ def true_curve(name, columns):
 
 @functools.cache
 def solved(figure):
-    return tables.read(ROOT / f"results/curves/{figure}.csv")
+    return tables.read(RUN / f"results/curves/{figure}.csv")
 
 
 def judged(answers, folder):
@@ -307,7 +307,7 @@ def judged(answers, folder):
             for name, one in config()["comparisons"].items()
             if one["figure"] == figure and (name in read or one["metric"] == "ratio")
         }
-        path = str(ROOT / f"results/curves/{figure}.csv")
+        path = str(RUN / f"results/curves/{figure}.csv")
         rows = compare(figure, path, entries, references, config()["significance"], {})
         found |= {row["comparison"]: row["verdict"] for row in rows}
     return found
@@ -339,8 +339,8 @@ def row(place):
 
 
 def main():
-    if not PAGE.is_file():
-        sys.exit(f"{PAGE} is missing: run snakemake first")
+    if not (RUN / "figures/your_copy.html").is_file():
+        sys.exit("figures/your_copy.html is missing: run snakemake first")
     names = [f"{size} points" if kind == "markers" else f"{size} px" for kind, size in COLUMNS]
     print(f"False alarms / power against {WRONG_BY:g} times the curve, in %; {TRIALS}")
     print("| marks | click, px | tilt per px |", " | ".join(names), "| refused |")

@@ -90,13 +90,17 @@ def test_the_table_says_what_every_comparison_has_found():
     assert figure_table.text(table) == TEXT
     assert table[1].others[0].rows == ["fig6-9", "fig6-8"]  # the worst first
     assert table[1].paper[1].entry == "eq-15"
-    assert figure_table.beyond(rows)== "Beyond the paper: 1 agrees, 1 differs (Rod)"
+    assert figure_table.beyond(rows) == "Beyond the paper: 1 agrees, 1 differs (Rod)"
     made = "2 passed, 1 not compared, models: 1 differs (Fig. 6), 1 FAILS"
     assert figure_table.of_solver(rows).endswith(f"laws: {made}")
 
 
 def test_printed_curves_that_were_read_stand_first_the_worst_on_top():
-    empty = dict.fromkeys(verdict_table.COLUMNS, "") | {"figure": "fig6", "group": PRINTED, "curve": "lumped"}
+    empty = dict.fromkeys(verdict_table.COLUMNS, "") | {
+        "figure": "fig6",
+        "group": PRINTED,
+        "curve": "lumped",
+    }
     rows = [
         empty | {"verdict": verdict, "comparison": f"{place}"} | cells
         for place, (verdict, cells) in enumerate(PRINTS)
@@ -114,5 +118,7 @@ def test_a_ratio_of_two_printed_curves_is_no_curve():
     ratio |= {"says": "friction over normal force", "comparison": "ratio", "verdict": "FAILS"}
     rows = [dict.fromkeys(verdict_table.COLUMNS, "") | ratio]
     told = figure_table.text(figure_table.of_run(rows, {"fig8": "forces"}))
-    assert told == "Fig. 8  forces\n FAILS        printed curve: friction over normal force, rms 0.15"
+    assert (
+        told == "Fig. 8  forces\n FAILS        printed curve: friction over normal force, rms 0.15"
+    )
     assert figure_table.of_printed(rows) == ""
