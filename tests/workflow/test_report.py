@@ -376,7 +376,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "verdicts": VERDICTS,
         "ledger": [none | {"entry": "eq-25", "holds": "no"}, none | {"entry": "a", "holds": "yes"}],
         "figures": {
-            name: write_report.figure(name, b"<svg/>", "Words.", NO_RESIDUALS, VERDICTS, False)
+            name: write_report.figure(name, b"<svg/>", "Words.", NO_RESIDUALS, VERDICTS, False, {})
             for name in CONFIG["figures"]
         },
         "captions": dict.fromkeys(write_report.SECTIONS, "Words."),
