@@ -383,6 +383,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "cases": which_model.cases(answers, trade),
         "n": {},
         "significance": CONFIG["significance"],
+        "doubt": 0.01,
         "run": {"date": "Today", "commit": "abc"},
         "table": figure_table.of_run(VERDICTS, {"fig6": "rebound"}),
         "faults": ["FAILS: fig6-far: max 9"],
