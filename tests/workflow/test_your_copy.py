@@ -21,10 +21,11 @@ from tests.workflow import prints
 from tests.workflow.project import ROOT, config, schema, sources
 
 RUBBER, LOSSY = "johnson1983/rubber_sphere", "stronge1994/fig6_e_0.5"
-LIMITS = {"fig5": ((0, 8), (-3, 1)), "fig6": ((0, 8), (-3, 3))}
+LIMITS = {"fig5": ((0, 8), (-3, 1)), "fig6": ((0, 8), (-3, 3)), "fig8a": ((0, 90), (0, 80))}
 # Those that the page proposes.
 MARKS = [(x, 0) for x in (0, 2, 4, 6)] + [(0, y) for y in (1, -1, -2, -3)]
 X = np.linspace(0.0, 8.0, 401)
+FORCES = "angle [deg]", "peak_force [N]"
 # Where a pixel of the picture is in the window, once the stage shows it.
 SHOW = """([u, v]) => {
   const scale = sheet.getBoundingClientRect().width / sheet.viewBox.baseVal.width;
@@ -81,9 +82,9 @@ def opened(tab, first_run, tmp_path):
     """Open the page with a print; it has no errors, and asks for nothing."""
     tab.problems.clear()
 
-    def reader(panel, lines, circles=(), dpi=100, how="file", marks=(*MARKS, (8, -3))):
+    def reader(panel, lines, circles=(), dpi=100, how="file", marks=(*MARKS, (8, -3)), **more):
         path = tmp_path / "print.jpg"
-        pixel = prints.scan(path, LIMITS[panel], lines, circles, dpi)
+        pixel = prints.scan(path, LIMITS[panel], lines, circles, dpi, **more)
         tab.resize(1440, 900)
         tab.open("about:blank")
         tab.open((first_run[0] / "figures/your_copy.html").as_uri())
@@ -96,7 +97,7 @@ def opened(tab, first_run, tmp_path):
         tab.page.fill("#zoom", "3")
         found = Reader(tab, pixel)
         for mark in marks:
-            if mark not in MARKS:
+            if mark not in MARKS and panel != "fig8a":  # which proposes all of its own
                 tab.page.click("#mark-add")
                 tab.page.click("#marks tr:last-child .mark-x")
                 tab.page.keyboard.type(f"{mark[0]}")
@@ -309,12 +310,13 @@ def rms(errors):
 def saved(reader, series, folder):
     """The file of a series, saved and dropped into a copy of its folder."""
     assert reader.text("#refused") == ""
-    reader.page.click("#save")
-    assert "Who" in reader.text("#refused")
-    reader.page.fill("#who", "Ada Reader")
-    reader.page.fill("#from", "a made-up print")
+    if not reader.page.input_value("#who"):
+        reader.page.click("#save")
+        assert "Who" in reader.text("#refused")
+        reader.page.fill("#who", "Ada Reader")
+        reader.page.fill("#from", "a made-up print")
     source, name = series.split("/")
-    shutil.copytree(ROOT / "data" / source, folder / source)
+    shutil.copytree(ROOT / "data" / source, folder / source, dirs_exist_ok=True)
     path = reader.save(folder / source)
     assert path.name == f"{name}.csv" and reader.text("#refused") == ""
     return path
@@ -322,16 +324,23 @@ def saved(reader, series, folder):
 
 def verdict(path, first_run):
     """What a run says of a file that was dropped into a folder of data/."""
-    source, series = path.parent.name, f"{path.parent.name}/{path.stem}"
-    named = config()["comparisons"].items()
-    ((name, entry),) = [one for one in named if one[1].get("reference") == series]
-    figure = name.split("-")[0]
-    found = sources() | {source: reference_data.load(path.parent, schema("source"))}
+    series, every = f"{path.parent.name}/{path.stem}", config()["comparisons"].items()
+    ((name, _),) = [
+        one for one in every if (one[1].get("reference"), one[1]["metric"]) == (series, "distance")
+    ]
+    return verdicts(path.parent, name, first_run)[name]
+
+
+def verdicts(folder, begin, first_run):
+    """What a run says of a folder of data/, in comparisons whose names begin so."""
+    stated = config()["comparisons"].items()
+    entries = {name: entry for name, entry in stated if name.startswith(begin)}
+    found = sources() | {folder.name: reference_data.load(folder, schema("source"))}
+    figure = begin.split("-")[0]
     references = figure_settings.references(config(), found, figure)
     curves = first_run[0] / f"results/curves/{figure}.csv"
-    return compare(figure, curves, {name: entry}, references, config()["significance"], {})[0][
-        "verdict"
-    ]
+    rows = compare(figure, curves, entries, references, config()["significance"], {})
+    return {row["comparison"]: row["verdict"] for row in rows}
 
 
 @pytest.mark.parametrize(
@@ -379,6 +388,44 @@ def test_a_line_is_followed_and_judged(wrong, wanted, opened, first_run, tmp_pat
     sigma = np.array(re.findall(r"# sigma_[xy]: (.*)", path.read_text()), float) * unit
     assert len(read) <= 15 and np.all((sigma > 0.8 * width / 4) & (sigma < 1.6 * width / 4))
     assert verdict(path, first_run) == wanted
+
+
+@pytest.mark.parametrize("dpi", [100, 150])
+@pytest.mark.parametrize(("larger", "wanted"), [(1.0, "agrees"), (1.05, "FAILS")])
+def test_a_line_in_a_photo_with_uneven_light_is_judged(
+    larger, wanted, dpi, opened, first_run, tmp_path
+):
+    curves = {e: lumped.rebound(X, 3.5, 1.21, e).velocity for e in (0.0, 0.5, 1.0)}
+    line = np.transpose([X, larger * curves[0.5]])
+    others = [(X, curves[e], "-") for e in (0.0, 1.0)]
+    reader = opened("fig6", [*others, (*line.T, "-")], dpi=dpi, seen=prints.PHOTO)
+    reader.read(LOSSY, line[25:350:25], follow=True)
+    assert verdict(saved(reader, LOSSY, tmp_path), first_run) == wanted
+
+
+@pytest.mark.parametrize(("friction", "wanted"), [(1.0, "agrees"), (1.15, "FAILS")])
+def test_friction_that_is_too_high_fails_beside_its_normal_force(
+    friction, wanted, opened, first_run, tmp_path
+):
+    """Fig. 8, whose right axis has half the numbers of the left one."""
+    table = tables.read(first_run[0] / "results/curves/fig8.csv")
+    own = {name: tables.select(table, variant=name) for name in ("normal", "friction")}
+    angle, force = ([one[key].to_numpy() for one in own.values()] for key in FORCES)
+    shown = [0.8 * force[0], 2 * friction * 0.8 * force[1]]
+    lines = [(x, y, "-") for x, y in zip(angle, shown, strict=True)]
+    left = [*((x, 0) for x in (0, 30, 60, 90)), *((0, y) for y in (20, 40, 60, 80)), (90, 80)]
+    reader = opened("fig8a", lines, dpi=150, marks=left, steps=(10, 20))
+    clicked = [np.transpose(line[:2])[np.linspace(20, 860, 12).astype(int)] for line in lines]
+    reader.read("stronge1994/fig8_normal", clicked[0], follow=True)
+    saved(reader, "stronge1994/fig8_normal", tmp_path)
+    reader.page.select_option("#panel", "fig8b")
+    reader.page.check("#mode-marks")
+    reader.click([(90, 20), (90, 40), (90, 80), (0, 80)])  # those at y = 0 are there
+    reader.read("stronge1994/fig8_friction", clicked[1], follow=True)
+    path = saved(reader, "stronge1994/fig8_friction", tmp_path)
+    found = verdicts(path.parent, "fig8-printed-curve-", first_run)
+    ratio = found.pop("fig8-printed-curve-ratio")
+    assert (ratio, set(found.values())) == (wanted, {"agrees"})
 
 
 def test_undo_takes_back_a_followed_line_and_a_lost_line_names_the_click(opened):
