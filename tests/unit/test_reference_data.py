@@ -65,6 +65,11 @@ def test_a_file_with_a_head_fills_an_awaited_series(mu, end, tmp_path):
     assert series["calibration"] == known
     assert series["settings"] == {"rubber": {"stiffness_ratio": 1.5}, "incidence": 0.83}
     assert reference_data.Series(**series).points().to_numpy().tolist() == [[1.0, 0.5]]
+    assert series.get("overlay") is None
+    picture = folder / "rubber_sphere.png"
+    picture.write_bytes(b"\x89PNG\r\n")
+    found = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
+    assert found["overlay"] == str(picture)
     file.unlink()
     awaited = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
     assert (awaited["kind"], awaited["path"]) == ("awaited", None)
