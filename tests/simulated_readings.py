@@ -72,11 +72,11 @@ function colours({ chain, ink, size: [width, height], seed }) {
 function read({ marks, range, clicks, scan, series, incidence }) {
   const map = maps.fit(marks, range, false);
   if (map.refused) return map;
-  let given = { readings: clicks, widths: [0, 0], by: "" };
+  let given = { readings: clicks, width: 0, by: "" };
   if (scan) {
     const { points, width, lost } = trace.follow(colours(scan), clicks[0]);
     if (lost) return { refused: "the line is lost" };
-    given = { readings: [points, []], widths: [width, 0], by: "followed along the line" };
+    given = { readings: [points, []], width, by: "followed along the line" };
   }
   const found = readings.judged(map, given, Boolean(scan), 1000);
   if (found.refused) return found;
