@@ -320,8 +320,8 @@ def saved(reader, series, folder):
     return path
 
 
-def verdict(path, first_run):
-    """What a run says of a file that was dropped into a folder of data/."""
+def judged_by_a_run(path, first_run):
+    """The row of a run for a file that was dropped into a folder of data/."""
     source, series = path.parent.name, f"{path.parent.name}/{path.stem}"
     named = config()["comparisons"].items()
     ((name, entry),) = [one for one in named if one[1].get("reference") == series]
@@ -329,9 +329,7 @@ def verdict(path, first_run):
     found = sources() | {source: reference_data.load(path.parent, schema("source"))}
     references = figure_settings.references(config(), found, figure)
     curves = first_run[0] / f"results/curves/{figure}.csv"
-    return compare(figure, curves, {name: entry}, references, config()["significance"], {})[0][
-        "verdict"
-    ]
+    return compare(figure, curves, {name: entry}, references, config()["significance"], {})[0]
 
 
 @pytest.mark.parametrize(
@@ -351,7 +349,7 @@ def test_circles_are_read_and_judged(dpi, how, off, wanted, opened, first_run, t
     assert np.all(rms(error) <= np.multiply((8, 4), 0.3 / dpi))  # 0.3 % of the axes at 100 dpi
     sigma = np.array(re.findall(r"# sigma_[xy]: (.*)", path.read_text()), float)
     assert np.all((rms(error / sigma) > 0.4) & (rms(error / sigma) < 2))
-    assert verdict(path, first_run) == wanted
+    assert judged_by_a_run(path, first_run)["verdict"] == wanted
 
 
 @pytest.mark.parametrize(("wrong", "wanted"), [("", "agrees"), ("5 %", "FAILS"), ("25", "differs")])
@@ -378,7 +376,9 @@ def test_a_line_is_followed_and_judged(wrong, wanted, opened, first_run, tmp_pat
     unit = [np.linalg.norm(reader.pixel(*end) - reader.pixel(0, 0)) for end in ((1, 0), (0, 1))]
     sigma = np.array(re.findall(r"# sigma_[xy]: (.*)", path.read_text()), float) * unit
     assert len(read) <= 15 and np.all((sigma > 0.8 * width / 4) & (sigma < 1.6 * width / 4))
-    assert verdict(path, first_run) == wanted
+    row = judged_by_a_run(path, first_run)
+    assert row["verdict"] == wanted
+    assert wrong or f"{row['would fail'].capitalize()} than ours" in reader.text("#sigmas")
 
 
 def test_undo_takes_back_a_followed_line_and_a_lost_line_names_the_click(opened):

@@ -14,7 +14,6 @@
   let shown = null; // number of the one that is seen
   const past = []; // all this before, as text
   let map = null; // that of the marks, as it is drawn
-  let colour = null; // of the picture at each place, once a line is followed
   let imported = null; // columns of an export
 
   const panel = () => DATA.panels[state.panel];
@@ -167,7 +166,6 @@
     sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
     sheet.style.setProperty("--ratio", width / height);
     for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
-    colour = null;
   }
 
   const style_of = ({ line }, i) => `curve c${i % 6} ${line}`;
@@ -341,8 +339,8 @@
   // --- points ---
 
   function follow_line() {
-    colour ??= colours_of(picture());
-    const { points, width, length, left_out, lost, leg, move } = trace.follow(colour, state.clicks);
+    picture().colour ??= colours_of(picture());
+    const { points, width, length, left_out, lost, leg, move } = trace.follow(picture().colour, state.clicks);
     if (lost) {
       state.chosen = { list: "clicks", i: move - 1 };
       draw();
@@ -477,12 +475,12 @@
 
   // Another panel of the picture; marks of an x axis that both share stay.
   function go_to(name) {
-    const { box } = panel();
-    const shared = box && DATA.panels[name].box === box ? state.marks.filter(({ y, at }) => y === 0 && at) : [];
+    const { panel: before, marks } = state;
     change(() => {
       enter(name);
+      if (!panel().box || panel().box !== DATA.panels[before].box) return;
       for (const mark of state.marks.filter(({ y, at }) => y === 0 && !at)) {
-        mark.at = structuredClone(shared.find(({ x }) => x === mark.x)?.at ?? null);
+        mark.at = structuredClone(marks.find(({ x, y }) => y === 0 && x === mark.x)?.at ?? null);
       }
     });
   }
