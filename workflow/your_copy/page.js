@@ -319,7 +319,7 @@
     });
   }
 
-  const writes = (target) => target.matches?.("input:not([type]), [type=date], textarea");
+  const writes = (target) => target.matches("input:not([type]), [type=date], textarea");
 
   function press(event) {
     const is_z = /^[a-z]$/i.test(event.key) ? event.key.toLowerCase() === "z" : event.code === "KeyZ";
