@@ -72,11 +72,11 @@ function colours({ chain, ink, size: [width, height], seed }) {
 function read({ marks, range, clicks, scan, series, incidence }) {
   const map = maps.fit(marks, range, false);
   if (map.refused) return map;
-  let given = { readings: clicks, widths: [0, 0], by: "" };
+  let given = { readings: clicks, width: 0, by: "" };
   if (scan) {
     const { points, width, lost } = trace.follow(colours(scan), clicks[0]);
     if (lost) return { refused: "the line is lost" };
-    given = { readings: [points, []], widths: [width, 0], by: "followed along the line" };
+    given = { readings: [points, []], width, by: "followed along the line" };
   }
   const found = readings.judged(map, given, Boolean(scan), 1000);
   if (found.refused) return found;
@@ -96,7 +96,7 @@ CLICKS = 0.3, 0.5, 1.0  # px, one sigma
 TILTS = 0.0, 3e-5, 1e-4  # per pixel
 POINTS = 1, 3, 9, 30, 57
 LINES = 1.2, 2.4, 5.0  # px
-TRIALS = {"markers": (600, 100), "line": (200, 60)}  # of right and of wrong curves
+TRIALS = {"markers": (600, 100), "line": (200, 30)}  # of right and of wrong curves
 RUNS = 150
 WRONG_BY = 1.05
 

@@ -92,8 +92,8 @@ const maps = (() => {
     const on_line = "The marks lie on one line. Set one that is away from it, on the other axis.";
     if (is_loose(from.map((place) => [1, ...place]))) return { refused: on_line };
     if (!is_scan && is_loose(from.flatMap(basis))) {
-      return { refused: "Set the corner opposite the origin too, or three marks on each axis; with fewer only a flat-bed " +
-        "scan can be read: tick it." };
+      return { refused: "Set the corner opposite the origin too, or three marks on each axis; with fewer only a " +
+        "flat-bed scan can be read: tick it." };
     }
     const middle = ["u", "v"].map((key) => add(marks.map((mark) => mark[key])) / marks.length);
     const to = marks.map(({ u, v }) => [u - middle[0], v - middle[1]]);

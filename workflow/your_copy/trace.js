@@ -6,7 +6,7 @@ const trace = (() => {
   const FAINTEST = 20; // of 255: the least difference in colour between a line and its paper
   const [INKED, EDGE] = [0.4, 0.2]; // shares of this difference: what is ink, and where a line ends
 
-  const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
+  const median = (list) => list.toSorted((a, b) => a - b)[Math.floor(list.length / 2)];
   const distance = ([a, b], [c, d]) => Math.hypot(c - a, d - b);
   const direction = (from, to) => [0, 1].map((i) => (to[i] - from[i]) / (distance(from, to) || 1));
   const smallest = (list, size) => list.reduce((best, one) => (size(one) < size(best) ? one : best), list[0]);
@@ -92,15 +92,5 @@ const trace = (() => {
     return { points: kept.map((one) => one.here), width, length, left_out };
   }
 
-  // Distance of a point from a chain of points.
-  function beside([x, y], chain) {
-    const from_part = ([a, b], [c, d]) => {
-      const squared = (c - a) ** 2 + (d - b) ** 2 || 1;
-      const share = Math.min(1, Math.max(0, ((x - a) * (c - a) + (y - b) * (d - b)) / squared));
-      return Math.hypot(x - a - share * (c - a), y - b - share * (d - b));
-    };
-    return Math.min(...chain.slice(1).map((end, i) => from_part(chain[i], end)));
-  }
-
-  return { follow, beside };
+  return { follow };
 })();

@@ -68,7 +68,8 @@ def page(
 def noncentrality(significance: float) -> dict[str, Any]:
     """What chi-squared must have for 9 of 10 refusals: by points, and degrees left over by marks.
 
-    The sigmas of markers rest on 8 values, two for each point, and what the marks leave over.
+    The sigmas of markers rest on a prior worth 4 values, two for each point, and what the marks
+    leave over.
     """
 
     def of(points: int, of_sigma: int | None) -> float:
@@ -77,7 +78,7 @@ def noncentrality(significance: float) -> dict[str, Any]:
     return {
         "of_line": [of(n, None) for n in range(1, OF_LINE + 1)],
         "of_points": [
-            [of(n, 8 + 2 * n + left) for left in LEFT_OVER] for n in range(1, OF_MARKERS + 1)
+            [of(n, 4 + 2 * n + left) for left in LEFT_OVER] for n in range(1, OF_MARKERS + 1)
         ],
     }
 
