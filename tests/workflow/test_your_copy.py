@@ -694,15 +694,6 @@ def test_a_new_picture_begins_empty_in_every_panel(opened, tmp_path):
     assert "Set 3 more" in reader.text("#fit")
 
 
-def test_a_page_whose_distances_are_wrong_says_so(tab, first_run, tmp_path):
-    text = (first_run[0] / "figures/your_copy.html").read_text(encoding="utf-8")
-    for changed, wrong in ((text, 0), (re.sub(r'"near": \d', '"near": 7', text, count=1), 1)):
-        (tmp_path / "page.html").write_text(changed, encoding="utf-8")
-        tab.open((tmp_path / "page.html").as_uri())
-        said = tab.page.text_content("#refused")
-        assert ("Do not trust" in said and f" {wrong} of " in said) if wrong else said == ""
-
-
 def test_a_curve_is_the_one_that_its_name_says_and_with_which_its_series_is_compared():
     """Of all panels: the parameters in the words, and the curve and column of the comparison."""
     stated = config()["comparisons"].values()

@@ -597,8 +597,4 @@
   enter(Object.keys(DATA.panels).find((name) => asked && name.startsWith(asked)) ?? "fig5");
   get("when").value = new Date().toISOString().slice(0, 10);
   draw();
-  // Distances of this page against those of the package.
-  const wrong = Object.values(DATA.panels).flatMap((one) => one.check.filter(({ curve, point, near }) =>
-    !(Math.abs(readings.nearest(one.curves[curve], point, spans(one)).far - near) < 1e-6)));
-  if (wrong.length) refuse(`Do not trust this page: ${wrong.length} of its distances are not those of the package.`);
 })();

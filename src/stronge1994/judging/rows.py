@@ -16,7 +16,7 @@ from stronge1994.formulas import plain
 from stronge1994.judging import scales
 from stronge1994.judging.comparisons import Comparison, Metric
 from stronge1994.judging.metrics import Measured, as_printed, measure, rms_and_max
-from stronge1994.judging.verdicts import judge, judge_print, noticed
+from stronge1994.judging.verdicts import error_in_words, judge, judge_print
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table, with_unit
 from stronge1994.verdict_table import COLUMNS, Verdict, Why
@@ -159,7 +159,7 @@ def _judged(
     if chi2:
         cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
         cells |= {"degrees of sigma": chi2.of_sigma or "", "p": f"{chi2.p:.2g}"}
-        cells |= {"would fail": noticed(comparison, measured, error)}
+        cells |= {"would fail": error_in_words(comparison, measured, error)}
     return verdict, cells
 
 

@@ -81,7 +81,7 @@ def _beside_the_curve(comparison: Comparison, measured: Measured, significance: 
     return Judged(Verdict.AGREES, chi2, error)
 
 
-def noticed(comparison: Comparison, measured: Measured, error: float | None) -> str:
+def error_in_words(comparison: Comparison, measured: Measured, error: float | None) -> str:
     """Which error a comparison would have noticed, in words; empty if there is none.
 
     It would have given a p below the significance in nine of ten readings.

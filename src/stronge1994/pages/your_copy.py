@@ -8,7 +8,6 @@ from typing import Any, TypeAlias
 from markupsafe import Markup
 
 from stronge1994 import goodness, tables
-from stronge1994.judging import distances
 from stronge1994.pages import templates
 from stronge1994.reference_data import LARGEST_SIGMA, Series, strict_yaml
 from stronge1994.reference_data.reading import PLACEHOLDER
@@ -84,13 +83,12 @@ def noncentrality(significance: float) -> dict[str, Any]:
 
 
 def _panel(panel: Panel, table: Table, series: Mapping[str, Any]) -> Panel:
-    """A panel with the points of its curves, the series that can be read in it, and checks."""
+    """A panel with the points of its curves, and the series that can be read in it."""
     markers = panel.get("points", [])
     curves = [own for stated in panel["curves"] for own in _curves(stated, panel, table)]
     named = [*markers, *(one["series"] for one in curves if "series" in one)]
-    check = [_check(place, curve, panel["range"]) for place, curve in enumerate(curves)]
     found = [_readable(full, series[full], full not in markers) for full in named]
-    return panel | {"curves": curves, "series": found, "check": check}
+    return panel | {"curves": curves, "series": found}
 
 
 def _readable(full: str, entry: Mapping[str, Any], line: bool) -> dict[str, Any]:
@@ -125,15 +123,3 @@ def _curves(stated: Panel, panel: Panel, table: Table) -> Iterator[Panel]:
 
 def _short(values: Any) -> list[float]:
     return [float(f"{value:.{DIGITS}g}") for value in values]
-
-
-def _check(place: int, curve: Panel, spans: Sequence[Sequence[float]]) -> dict[str, Any]:
-    """A point beside a curve, not beyond its ends, and its distance as the judge measures it."""
-    scales = [high - low for low, high in spans]
-    line = curve["x"], curve["y"]
-    middle = len(line[0]) // 2
-    pairs = zip(line, scales, strict=True)
-    point = [sum(own[middle - 1 : middle + 1]) / 2 + 0.05 * scale for own, scale in pairs]
-    one = [[value] for value in point]
-    near = distances.curve_residuals(one, line, (scales[0], scales[1]))[0]
-    return {"curve": place, "point": point, "near": abs(float(near[0]))}
