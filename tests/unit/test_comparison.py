@@ -133,6 +133,7 @@ def test_points_agree_if_they_would_notice_an_error_of_a_tenth(number, of_sigma,
             found = judged(sign * far(p))
             assert found.verdict == verdict
             assert found.error == pytest.approx(error, rel=1e-3)
+    assert judged(np.nan).verdict == Verdict.FAILS
     for size, verdict in ((1.0, Verdict.PASSED), (1.001, Verdict.FAILS)):
         computed = Series("computed", AXIS, AXIS)
         found = {judged(size, computed).verdict, judged(-size, None).verdict}

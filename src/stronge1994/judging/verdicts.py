@@ -74,11 +74,11 @@ def _beside_the_curve(comparison: Comparison, measured: Measured, significance: 
     chi2 = chi_squared(measured.sigmas, *shared)
     direction = measured.larger if measured.free is None else measured.wider
     error = smallest_error(direction, *shared, significance=significance)
-    if chi2.p <= significance:
+    if not chi2.p > significance:  # nor if it is nan
         return Judged(Verdict.FAILS, chi2, error)
-    if chi2.p <= DOUBT * significance or error > LARGEST_ERROR:
-        return Judged(Verdict.CANNOT_TELL, chi2, error)
-    return Judged(Verdict.AGREES, chi2, error)
+    if chi2.p > DOUBT * significance and error <= LARGEST_ERROR:
+        return Judged(Verdict.AGREES, chi2, error)
+    return Judged(Verdict.CANNOT_TELL, chi2, error)
 
 
 def error_in_words(comparison: Comparison, measured: Measured, error: float | None) -> str:
