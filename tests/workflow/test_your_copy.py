@@ -477,6 +477,20 @@ def test_marks_are_asked_for_and_a_wrong_one_is_named(opened):
     assert "residual 0." in reader.text("#fit") and "Mark" not in reader.text("#fit")
 
 
+def test_a_reading_with_a_wrong_mark_is_not_saved_and_the_mark_is_named(opened):
+    reader = opened("fig5", [], marks=[*MARKS[:3], (7, 0), *MARKS[4:], (8, -3)])
+    page = reader.page
+    page.click("#marks tr:nth-child(4) .mark-drop")  # a further mark was put at 7
+    page.click("#marks tr:nth-child(8) .mark-x")
+    page.keyboard.press("Control+a")
+    page.keyboard.type("5")
+    reader.read(RUBBER, [(1, 0), (5, -2)])
+    page.fill("#who", "Ada Reader")
+    page.fill("#from", "a made-up print")
+    page.click("#save")
+    assert re.search(r"^Mark \d is \d+ px off where the others put it", reader.text("#refused"))
+
+
 def test_a_mirrored_picture_is_refused(opened):
     reader = opened("fig5", [], marks=MARKS[:3])
     for row, place in ((5, (0, -3)), (8, (0, 1))):

@@ -438,7 +438,8 @@
   function save() {
     const said_of = { series: chosen_series(), ...texts() };
     const found = judged();
-    const problem = found.refused ?? (readings.missing(said_of) || readings.unfit(said_of.series, map, found));
+    const unfit = found.refused ? "" : readings.unfit(said_of.series, map, found);
+    const problem = found.refused ?? (readings.missing(said_of) || (unfit && worst()) || unfit);
     refuse(problem);
     get("saved").textContent = "";
     if (problem) return;
