@@ -195,13 +195,14 @@ def test_the_worst_mark_is_named(page):
 
 
 # Readings of a map of 2 and 3 units a pixel, whose marks have left this over.
-JUDGED = """readings.judged({{ scale: () => [2, 3], sigma: {sigma}, freedom: 8 }},
+JUDGED = """readings.judged({{ scale: () => [2, 3], sigma: {sigma}, freedom: {freedom} }},
   {{ readings: [{first}, {second}], width: {width}, by: "{by}" }}, {line}, 800)"""
 
 
-def judged(page, first, second=(), sigma=0.4, width=0.0, by="", line=False):
+def judged(page, first, second=(), sigma=0.4, width=0.0, by="", line=False, freedom=8):
     places = {"first": json.dumps(first), "second": json.dumps(second)}
     words = {"width": width, "by": by, "line": json.dumps(line), "sigma": sigma}
+    words |= {"freedom": freedom}
     return page.evaluate(JUDGED.format(**places, **words))
 
 
@@ -215,13 +216,14 @@ def test_a_sigma_is_that_of_two_readings_or_of_the_marks_if_it_is_larger(page):
         assert found["values"] == 4 + 8 + 4 and found["origin"].startswith("mean of two readings")
 
 
-@pytest.mark.parametrize(
-    ("by", "point"), [("followed along the line", 0.6), ("", np.hypot(0.6, 0.5))]
-)
-def test_a_line_has_the_uncertainty_of_its_width(by, point, page):
-    found = judged(page, [[u, 1] for u in range(29)], width=2.4, by=by, line=True)
-    assert np.divide(found["sigmas"], (2, 3)) == pytest.approx(point)
-    assert np.divide(found["marks"], (2, 3)) == pytest.approx(0.5) and "values" not in found
+@pytest.mark.parametrize(("freedom", "mark"), [(8, 0.5), (0, 1.0)])
+@pytest.mark.parametrize("by", ["followed along the line", ""])
+def test_a_line_has_the_uncertainty_of_its_width(by, freedom, mark, page):
+    """And of the clicks, which without a spare mark nobody knows."""
+    given = {"width": 2.4, "by": by, "line": True, "freedom": freedom}
+    found = judged(page, [[u, 1] for u in range(29)], **given)
+    assert np.divide(found["sigmas"], (2, 3)) == pytest.approx(0.6 if by else np.hypot(0.6, mark))
+    assert np.divide(found["marks"], (2, 3)) == pytest.approx(mark) and "values" not in found
     assert [u for u, _ in found["points"]] == list(range(0, 29, 2))
 
 

@@ -40,7 +40,8 @@ const readings = (() => {
   function of_line(map, all, width, is_followed) {
     if (all.length < 2) return { refused: "Read two points of the line, or more." };
     if (!(width > 0)) return { refused: "How wide is the line? Its width is not known unless it is followed." };
-    const mark = Math.max(maps.CLICK, map.sigma);
+    // A line is read once: without a spare mark nothing tells how well one clicks.
+    const mark = map.freedom ? Math.max(maps.CLICK, map.sigma) : 2 * maps.CLICK;
     const origin = `a quarter of the width of the line${is_followed ? "" : ", and the clicks, as those of the marks"}`;
     const count = Math.min(all.length, MOST_OF_LINE);
     const points = Array.from({ length: count }, (_, i) => all[Math.round(i * (all.length - 1) / (count - 1))]);
