@@ -133,7 +133,7 @@ def text(rows: Sequence[Row]) -> str:
         )
         asked = f"to agree: {row['allowed']}" if row["p"] else ""
         of = of if row["reference"] else ""
-        parts = [measured(row), of, asked, noticed(row), row["why"], row["entry"]]
+        parts = [measured(row), of, chance(row), asked, noticed(row), row["why"], row["entry"]]
         told += lines(row["verdict"], row["comparison"], parts)
     return "\n".join(told)
 

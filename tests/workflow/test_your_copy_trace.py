@@ -160,3 +160,16 @@ def test_a_picture_of_forty_megapixels_is_followed(tab, followed):
       return (performance.now() - start) / 1000;
     })()""")
     assert seconds < 10
+
+
+def test_where_another_line_runs_into_it_a_line_is_left_out_up_to_the_next_click(followed):
+    """Between 330 and 440 both are one stroke of twice the width."""
+    beside = np.clip(np.abs(U - 385) - 55, 0, None) * 0.25  # px, between the middles of both
+    off = (V - curve(U)) / np.hypot(1, slope(U))
+    other = stroke(off - beside - 2.5, 3.3)
+    picture = painted(WHITE, (cover(), BLACK), (other, BLACK))
+    found = followed(picture, at=(20, 120, 220, 300, 480, 560, 660, 760))
+    assert "lost" not in found and len(found["points"]) >= 8
+    u, v = np.transpose(found["points"])
+    assert np.abs((v - curve(u)) / np.hypot(1, slope(u))).max() < 1.0
+    assert found["left_out"] > 100

@@ -84,7 +84,7 @@ const maps = (() => {
   // The map for marks {x, y, u, v}, values on axes of this range and pixels; or why there is none: {refused}.
   function fit(marks, range, is_scan) {
     if (marks.length < 3) {
-      return { refused: `Set ${3 - marks.length} more of the marks: three are needed, more are better.` };
+      return { refused: `Set ${3 - marks.length} more of the marks: four or more are needed, three of a flat-bed scan.` };
     }
     const [mid, half] = [1, -1].map((sign) => range.map(([low, high]) => (high + sign * low) / 2));
     const scaled = (point) => point.map((one, i) => (one - mid[i]) / half[i]);
@@ -92,8 +92,8 @@ const maps = (() => {
     const on_line = "The marks lie on one line. Set one that is away from it, on the other axis.";
     if (is_loose(from.map((place) => [1, ...place]))) return { refused: on_line };
     if (!is_scan && is_loose(from.flatMap(basis))) {
-      return { refused: "Set the corner opposite the origin too, or three marks on each axis; with fewer only a " +
-        "flat-bed scan can be read: tick it." };
+      return { refused: "Set the corner opposite the origin too, or three marks on each axis. Fewer are enough only " +
+        "if this is a flat-bed scan and no photo: then tick it." };
     }
     const middle = ["u", "v"].map((key) => add(marks.map((mark) => mark[key])) / marks.length);
     const to = marks.map(({ u, v }) => [u - middle[0], v - middle[1]]);

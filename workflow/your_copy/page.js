@@ -71,6 +71,7 @@
   // Change the state, so that it can be undone.
   function change(action) {
     past.push(JSON.stringify(whole()));
+    refuse("");
     action();
     get("saved").textContent = "";
     draw();
@@ -152,8 +153,12 @@
       return `${worst()} Click where ${x === null || y === null ? "a further mark" : place} stands.`;
     }
     if (map.refused || map.worst) return `${map.refused ?? ""} ${worst()}`;
-    if (state.mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
-    const how = state.follow ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
+    if (state.mode === "look" || !state.series) {
+      const moves = state.chosen?.list === "marks" ? " Arrow keys move the chosen mark; Escape lets it go." : "";
+      return `Our curves lie over your copy. To read points, go to step 4.${moves}`;
+    }
+    const again = state.turn || !state.readings[0].length ? "." : ", then “Read a second time”.";
+    const how = state.follow ? "Click along the line, then “Follow it”." : `Click the middle of each marker${again}`;
     const which = is_line() ? "Reading" : `${state.turn ? "Second" : "First"} reading`;
     return `${which} of: ${chosen_series().name}. ${how}`;
   }
@@ -451,7 +456,7 @@
     files.save(`${name}.csv`, new Blob([text], { type: "text/csv" }));
     state.saved = JSON.stringify(state.readings);
     get("saved").textContent = `Put ${name}.csv into the folder data/${source}/ of the project, and run: ` +
-      `snakemake --cores 2 ${panel().figure}. The report shows ${name}.png (“Save picture”) if it lies beside it.`;
+      `.venv/bin/snakemake --cores 2. The report shows ${name}.png (“Save picture”) if it lies beside it.`;
   }
 
   // Picture and curves as they lie, with the names of the curves, for one's own use.

@@ -50,8 +50,9 @@ const trace = (() => {
     // Where lines cross the ink is wide, at the end of a dash it is cut: its middle is not that of the line.
     const is_line = (found) => found?.width > 0.6 * usual && found.width < 1.3 * usual;
     const points = [];
-    let [here, way, missed, run, length, left_out] = [clicks[0], ways[0], 0, 0, 0, 0];
+    let [here, way, missed, run, length, left_out, skipped] = [clicks[0], ways[0], 0, 0, 0, 0, 0];
     for (const [i, goal] of clicks.slice(1).entries()) {
+      const before = points.length;
       const ahead = () => way[0] * (goal[0] - here[0]) + way[1] * (goal[1] - here[1]);
       // A line that has a corner at a click does not go on as before, but from there towards the next one.
       const next = here.map((one, n) => one + 2 * usual * way[n]);
@@ -66,7 +67,15 @@ const trace = (() => {
         const good = is_line(found) && Math.abs(found.off) < most;
         const past = ahead() <= 0 && distance(here, goal) < 1.5 * half;
         if (past || left < 0 || (!good && missed > gap)) {
-          return { lost: here, leg: i + 1, move: points.length ? i + 2 : 1 };
+          // Where it runs into another line it is left out up to the next click, unless too much would be.
+          const goes_on = before && ++skipped <= clicks.length / 3 && i + 2 < clicks.length;
+          if (!goes_on || !is_line(at_click(colour, goal, ways[i + 1]))) {
+            return { lost: here, leg: i + 1, move: points.length ? i + 2 : 1 };
+          }
+          points.length = before;
+          length = points.at(-1).length;
+          [way, missed, run] = [ways[i + 1], step, 0];
+          break;
         }
         if (good) {
           here = [here[0] - found.off * way[1], here[1] + found.off * way[0]];

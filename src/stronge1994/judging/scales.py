@@ -64,6 +64,7 @@ def ratio(first: Comparison, second: Comparison, curves: Table) -> Measured:
         of_sigma=min(known, default=None),
         places=np.ones((1, 2)),
         directions=np.array([[0.0, 1.0 / sigma]]),
+        note=f"factors {factors[0]:.3g} and {factors[1]:.3g}: have both axes the right numbers?",
     )
 
 
