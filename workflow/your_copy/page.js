@@ -484,6 +484,8 @@
     const { panel: before, marks } = state;
     change(() => {
       enter(name);
+      get("pointer").textContent = "";
+      if (panel().figure !== DATA.panels[before].figure) get("from").value = ""; // it says of which figure
       if (!panel().box || panel().box !== DATA.panels[before].box) return;
       for (const mark of state.marks.filter(({ y, at }) => y === 0 && !at)) {
         mark.at = structuredClone(marks.find(({ x, y }) => y === 0 && x === mark.x)?.at ?? null);
