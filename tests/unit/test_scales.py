@@ -109,6 +109,8 @@ def test_the_ratio_of_two_scales_is_judged_apart(friction, allowed, verdict, jud
     row = rows["ratio"]
     assert (row["verdict"], row["degrees of freedom"]) == (verdict, 1)
     assert float(row["max"]) == pytest.approx(friction / 0.876 - 1, abs=1e-3)
+    assert row["found"] == f"ratio {friction / 0.876:.3g}"
+    assert row["note"].startswith(f"factors {friction:.3g} and 0.876: have both axes")
     variance = 0.0
     for name, (x, y) in both.items():  # of least squares, where an error along x is one of y, too
         slope = np.interp(x, ANGLE, np.gradient(SHAPES[name], ANGLE)) * y[0] / SHAPES[name][3]

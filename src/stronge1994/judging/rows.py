@@ -153,6 +153,8 @@ def _judged(
     cells |= {"bounds": ", ".join(bounds)}
     if isinstance(comparison.reference, Fact):
         cells |= {"found": f"{measured.at[0]:.4g}", "stated": comparison.reference.stated}
+    if comparison.metric == Metric.RATIO:
+        cells["found"] = f"ratio {measured.at[0]:.3g}"
     if comparison.range:
         values = measured.plain + sum(comparison.range) / 2
         cells["found"] = f"{values.min():.3g} to {values.max():.3g}"
