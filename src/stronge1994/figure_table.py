@@ -84,13 +84,18 @@ def _figure_row(name: str, shows: str, rows: Table) -> FigureRow:
 
 
 def _printed(rows: Table) -> Iterator[Item]:
-    """Printed curves that somebody has read, those of one verdict together, the worst first."""
+    """Printed curves that somebody has read, those of one verdict together, the worst first.
+
+    A ratio of two curves is of none.
+    """
+    curves = (rows["curve"] != "").sum()
     read = rows[rows["why"] != Why.AWAITED]
     for (_, says, unit), own in read.groupby(["severity", "says", "unit"]):
-        verdict, why, entry = own.iloc[0][["verdict", "why", "entry"]]
+        verdict, why, entry, curve = own.iloc[0][["verdict", "why", "entry", "curve"]]
         rms = f"rms {_rms(own, unit)}" if unit else ""
         follows = f"{says}, {rms} from the model" if says else rms
-        size = ", ".join(filter(None, [f"{len(own)} of {len(rows)}", follows]))
+        size = ", ".join(filter(None, [f"{len(own)} of {curves}", follows]))
+        size = size if curve else follows.removesuffix(" from the model")
         yield Item(own["comparison"].tolist(), verdict, why, entry, "", "", "", size)
 
 
@@ -128,10 +133,11 @@ def _against_points(rows: Table, first: Row, name: str) -> str:
     if not name:
         return with_unit(float(f"{compared['max'].max():.2g}"), first["unit"])
     series = [own for _, own in compared.groupby("reference", sort=False)]
-    own, alike = series[0], [(one["verdict"] == first["verdict"]).any() for one in series]
+    alike = [one for one in series if (one["verdict"] == first["verdict"]).any()]
+    own = alike[0]
     size = _rms(own, own["unit"].iloc[0])
     what = words.of_identifier(own["reference"].iloc[0].split("/")[1])
-    of = f"in {sum(alike)} of {len(series)} series: " if len(series) > 1 else ""
+    of = f"in {len(alike)} of {len(series)} series: " if len(series) > 1 else ""
     return f"{of}{what}, {own['points'].sum():.0f} points, rms {size}"
 
 
@@ -169,18 +175,19 @@ def of_solver(rows: Iterable[Row]) -> str:
 def of_printed(rows: Iterable[Row]) -> str:
     """How many printed curves were compared, of how many; empty if none was.
 
-    >>> of_printed([{"group": "printed figure", "verdict": "agrees"}])
+    >>> of_printed([{"group": "printed figure", "verdict": "agrees", "curve": "lumped"}])
     '1 of 1 compared'
     """
-    verdicts = [row["verdict"] for row in rows if row["group"] == Group.PRINTED]
+    of_curves = (row for row in rows if row["group"] == Group.PRINTED and row["curve"])
+    verdicts = [row["verdict"] for row in of_curves]
     done = len(verdicts) - verdicts.count(Verdict.NOT_COMPARED)
     return f"{done} of {len(verdicts)} compared" if done else ""
 
 
 def beyond(rows: Iterable[Row]) -> str:
-    """What the comparisons with others say in figures beyond the paper, in one line."""
+    """What comparisons with others say in figures beyond the paper, in one line of a terminal."""
     told = counted(row for row in rows if not is_of_paper(row["figure"]))
-    return f"Beyond the paper, with others: {told}" if told else ""
+    return f"Beyond the paper: {told}" if told else ""
 
 
 def counted(rows: Iterable[Row], solver: bool = False) -> str:

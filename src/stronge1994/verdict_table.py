@@ -11,8 +11,8 @@ WIDTH = 80  # of a terminal
 # Texts that may hold a comma stand last.
 COLUMNS = [
     "figure", "comparison", "group", "verdict", "why", "points", "rms", "max", "unit",
-    "chi^2", "degrees of freedom", "degrees of sigma", "p", "rms [sigma]", "max [sigma]",
-    "found", "stated", "column", "entry", "paper", "reference", "model",
+    "chi^2", "degrees of freedom", "degrees of sigma", "p", "would fail", "rms [sigma]",
+    "max [sigma]", "found", "stated", "column", "entry", "paper", "reference", "model",
     "curve", "says", "allowed", "bounds", "note", "reason",
 ]  # fmt: skip
 
@@ -21,9 +21,10 @@ class Verdict(StrEnum):
     """What a comparison says, worst first; only FAILS fails a run.
 
     DIFFERS is a known difference that has kept its bounds, and `Why` says what is known of it.
-    CANNOT_TELL is no evidence: published points agree with the curve, but would also agree if they
-    all lay `judging.verdicts.VISIBLE_SHIFT` sigmas beside it. PASSED is a check of our solver by
-    our own second codes, by 40 digits or by a law; such a check never agrees with anything.
+    CANNOT_TELL is no evidence: published points would also agree with a curve that is a tenth too
+    large, or their p is between agreement and difference, see `judging.verdicts`. PASSED is a check
+    of our solver by our own second codes, by 40 digits or by a law; such a check never agrees with
+    anything.
     """
 
     FAILS = "FAILS"
@@ -105,6 +106,16 @@ def chance(row: Row) -> str:
     return f"chi^2 {row['chi^2']} of {of}: p = {row['p']}"
 
 
+def noticed(row: Row) -> str:
+    """Which error of the curve a comparison would have found that found none.
+
+    >>> noticed({"verdict": "agrees", "would fail": "a curve 2 % larger"})
+    'a curve 2 % larger would have failed'
+    """
+    found_none = row["verdict"] in (Verdict.AGREES, Verdict.CANNOT_TELL)
+    return f"{row['would fail']} would have failed" if found_none and row["would fail"] else ""
+
+
 def problem(row: Row) -> str:
     """Why a row fails: its bound, or with a known difference that it was to stay as it was."""
     bound = f"a known difference with {row['bounds']}" if row["bounds"] else row["allowed"]
@@ -121,7 +132,8 @@ def text(rows: Sequence[Row]) -> str:
             f"{row['reference']} and the curve {row['curve']}" if row["curve"] else row["reference"]
         )
         asked = f"to agree: {row['allowed']}" if row["p"] else ""
-        parts = [measured(row), of if row["reference"] else "", asked, row["why"], row["entry"]]
+        of = of if row["reference"] else ""
+        parts = [measured(row), of, chance(row), asked, noticed(row), row["why"], row["entry"]]
         told += lines(row["verdict"], row["comparison"], parts)
     return "\n".join(told)
 

@@ -90,13 +90,17 @@ def test_the_table_says_what_every_comparison_has_found():
     assert figure_table.text(table) == TEXT
     assert table[1].others[0].rows == ["fig6-9", "fig6-8"]  # the worst first
     assert table[1].paper[1].entry == "eq-15"
-    assert figure_table.beyond(rows).endswith("others: 1 agrees, 1 differs (Rod)")
+    assert figure_table.beyond(rows) == "Beyond the paper: 1 agrees, 1 differs (Rod)"
     made = "2 passed, 1 not compared, models: 1 differs (Fig. 6), 1 FAILS"
     assert figure_table.of_solver(rows).endswith(f"laws: {made}")
 
 
 def test_printed_curves_that_were_read_stand_first_the_worst_on_top():
-    empty = dict.fromkeys(verdict_table.COLUMNS, "") | {"figure": "fig6", "group": PRINTED}
+    empty = dict.fromkeys(verdict_table.COLUMNS, "") | {
+        "figure": "fig6",
+        "group": PRINTED,
+        "curve": "lumped",
+    }
     rows = [
         empty | {"verdict": verdict, "comparison": f"{place}"} | cells
         for place, (verdict, cells) in enumerate(PRINTS)
@@ -107,3 +111,14 @@ def test_printed_curves_that_were_read_stand_first_the_worst_on_top():
     assert [item.rows for item in row.printed] == [["5"], ["2"], ["3"], ["0", "4"]]
     assert figure_table.of_printed(rows) == "4 of 6 compared"
     assert not figure_table.of_printed(rows[1:2])
+
+
+def test_a_ratio_of_two_printed_curves_is_no_curve():
+    ratio = {"figure": "fig8", "group": PRINTED, "unit": "1", "rms": "0.15", "points": "1"}
+    ratio |= {"says": "friction over normal force", "comparison": "ratio", "verdict": "FAILS"}
+    rows = [dict.fromkeys(verdict_table.COLUMNS, "") | ratio]
+    told = figure_table.text(figure_table.of_run(rows, {"fig8": "forces"}))
+    assert (
+        told == "Fig. 8  forces\n FAILS        printed curve: friction over normal force, rms 0.15"
+    )
+    assert figure_table.of_printed(rows) == ""

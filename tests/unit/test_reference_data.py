@@ -5,6 +5,7 @@ import pytest
 
 from stronge1994 import reference_data
 from stronge1994.judging import comparisons
+from stronge1994.reference_data.calibration import Calibration
 from stronge1994.settings import config as configuration
 from tests.workflow.project import ROOT, config, head, schema, sources
 
@@ -59,8 +60,16 @@ def test_a_file_with_a_head_fills_an_awaited_series(mu, end, tmp_path):
     assert (series["kind"], series["points"], series["sigma_values"]) == ("digitised", 1, 9)
     assert (series["x"]["sigma"], series["y"]["sigma"]) == (0.012, 0.01)
     assert series["sigma_origin"] == "two readings; marks"
+    marks = ((0, 0), (4, 0), (8, 0), (0, 1), (0, -3), (8, -3))
+    known = Calibration(((0, 8), (-3, 1)), marks, (0.01, 0.005), 0.1, is_line=False)
+    assert series["calibration"] == known
     assert series["settings"] == {"rubber": {"stiffness_ratio": 1.5}, "incidence": 0.83}
     assert reference_data.Series(**series).points().to_numpy().tolist() == [[1.0, 0.5]]
+    assert series.get("overlay") is None
+    picture = folder / "rubber_sphere.png"
+    picture.write_bytes(b"\x89PNG\r\n")
+    found = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
+    assert found["overlay"] == str(picture)
     file.unlink()
     awaited = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
     assert (awaited["kind"], awaited["path"]) == ("awaited", None)

@@ -83,7 +83,7 @@ def explorer(tmp_path_factory, answers):
 @pytest.fixture(scope="session")
 def scripts():
     """The scripts of the explorer in node, which needs no browser. Do not change their state."""
-    with node.scripts() as found:
+    with node.scripts(node.explorer()) as found:
         yield found
 
 

@@ -1,4 +1,4 @@
-"""The scripts of the explorer without a browser: run by the node that comes with Playwright."""
+"""Scripts of pages without a browser: run by the node that comes with Playwright."""
 
 import contextlib
 import json
@@ -33,11 +33,11 @@ function impact_of(style, groups) {{
 # Answers each line, an expression, with its value or its error.
 PROGRAM = """
 const vm = require("node:vm");
-const context = vm.createContext();
+
 require("node:readline").createInterface({ input: process.stdin }).on("line", (line) => {
   let answer;
   try {
-    const value = vm.runInContext(JSON.parse(line), context, { timeout: 60000 });
+    const value = vm.runInThisContext(JSON.parse(line), { timeout: 60000 });
     answer = [JSON.stringify(value) ?? "null", null];
   } catch (error) {
     answer = [null, String(error.stack ?? error)];
@@ -50,10 +50,9 @@ require("node:readline").createInterface({ input: process.stdin }).on("line", (l
 class Scripts:
     """The scripts in a running process."""
 
-    def __init__(self, process):
+    def __init__(self, process, texts):
         self._process = process
-        texts = [(FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS]
-        self.evaluate("\n".join([BASE, *texts, "null"]))
+        self.evaluate("\n".join([*texts, "null"]))
 
     def evaluate(self, expression):
         """Value of a JavaScript expression; what it throws, or a minute without an end, raises."""
@@ -69,13 +68,18 @@ class Scripts:
         return self.evaluate(f"{json.dumps(rows)}.map({function})")
 
 
+def explorer():
+    """Texts of the scripts of the explorer."""
+    return [BASE, *((FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS)]
+
+
 @contextlib.contextmanager
-def scripts():
-    """The scripts, loaded anew."""
+def scripts(texts):
+    """Scripts with these texts, loaded anew."""
     node, _ = compute_driver_executable()
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([node, "-e", PROGRAM], text=True, encoding="utf-8", **pipes) as process:
-        yield Scripts(process)
+        yield Scripts(process, texts)
 
 
 def expression(name, old="", new=""):

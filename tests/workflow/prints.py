@@ -12,10 +12,15 @@ INK = {"color": "black", "linewidth": 0.8}
 SIZE = 5.0, 4.0  # in
 
 
-def scan(path, limits, lines, circles=(), dpi=300, seed=0):
+# How a picture is seen: what a corner moves by perspective, over the width, and the light at the
+# right edge over that at the left.
+SCAN, PHOTO = (0.006, 1.0), (0.05, 0.6)
+
+
+def scan(path, limits, lines, circles=(), dpi=300, seen=SCAN, steps=(1, 1)):
     """Save a JPEG; the result gives pixels of the picture for values of the axes.
 
-    `limits` are those of x and y, with ticks at the integers; `lines` are x, y and a line style
+    `limits` are those of x and y, with ticks at these `steps`; `lines` are x, y and a line style
     each. Pixels count from the upper left corner of the picture.
     """
     figure = Figure(SIZE, dpi=dpi)
@@ -26,7 +31,7 @@ def scan(path, limits, lines, circles=(), dpi=300, seed=0):
     for x, y in circles:
         axes.plot(x, y, "o", markersize=4, markerfacecolor="white", markeredgewidth=0.7, **INK)
     axes.set(xlim=limits[0], ylim=limits[1])
-    axes.set(xticks=np.arange(left, right + 1), yticks=np.arange(low, high + 1))
+    axes.set(xticks=np.arange(left, right + 1, steps[0]), yticks=np.arange(low, high + 1, steps[1]))
     axes.tick_params(direction="in", width=0.6, labelsize=8, labelfontfamily="serif")
     axes.spines[["top", "right"]].set_visible(False)
     axes.spines["bottom"].set_position(("data", 0.0))  # the x axis crosses at y = 0
@@ -35,7 +40,7 @@ def scan(path, limits, lines, circles=(), dpi=300, seed=0):
     canvas.draw()
     grey = np.asarray(canvas.buffer_rgba())[..., 0]
     height, width = grey.shape
-    bent = _bent(width, height)
+    bent = _bent(width, height, seen[0])
     ask = np.linalg.inv(bent)  # Pillow asks for each new pixel where it comes from
     picture = Image.fromarray(grey).transform(
         (width, height),
@@ -44,8 +49,8 @@ def scan(path, limits, lines, circles=(), dpi=300, seed=0):
         Image.Resampling.BICUBIC,
         fillcolor=255,
     )
-    noise = np.random.default_rng(seed).normal(0.0, 8.0, grey.shape)
-    paper = 0.9 * np.asarray(picture, float) + 18.0 + noise
+    noise = np.random.default_rng(0).normal(0.0, 8.0, grey.shape)
+    paper = (0.9 * np.asarray(picture, float) + 18.0) * np.linspace(1.0, seen[1], width) + noise
     Image.fromarray(np.clip(paper, 0, 255).astype(np.uint8)).save(path, quality=60)
 
     def pixel(x, y):
@@ -56,12 +61,11 @@ def scan(path, limits, lines, circles=(), dpi=300, seed=0):
     return pixel
 
 
-def _bent(width, height):
-    """Rotated by 0.7 degrees about the middle, sheared, and with a slight perspective."""
+def _bent(width, height, corner):
+    """Rotated by 0.7 degrees about the middle, sheared, and with a perspective."""
     turn, (u, v) = np.radians(0.7), (width / 2, height / 2)
     middle = np.array([[1.0, 0.0, u], [0.0, 1.0, v], [0.0, 0.0, 1.0]])
     rotated = [[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]]
     sheared = [[1.0, 0.004, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-    # The corners move by half a per cent of the width.
-    perspective = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.012 / width, 0.0, 1.0]]
+    perspective = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2 * corner / width, 0.0, 1.0]]
     return middle @ perspective @ sheared @ rotated @ np.linalg.inv(middle)

@@ -64,6 +64,10 @@ def head(**other):
         "sigma_x": 0.012,
         "sigma_y": 0.01,
         "sigma_origin": "two readings; marks",
+        "axes": "0 to 8; -3 to 1",
+        "marks": "0 0; 4 0; 8 0; 0 1; 0 -3; 8 -3",
+        "mark_sigma_x": 0.01,
+        "mark_sigma_y": 0.005,
     }
     said = (keys | other).items()
     return "".join(f"# {key}: {value}\n" for key, value in said if value is not None)

@@ -376,13 +376,14 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
         "verdicts": VERDICTS,
         "ledger": [none | {"entry": "eq-25", "holds": "no"}, none | {"entry": "a", "holds": "yes"}],
         "figures": {
-            name: write_report.figure(name, b"<svg/>", "Words.", NO_RESIDUALS, VERDICTS, False)
+            name: write_report.figure(name, b"<svg/>", "Words.", NO_RESIDUALS, VERDICTS, False, {})
             for name in CONFIG["figures"]
         },
         "captions": dict.fromkeys(write_report.SECTIONS, "Words."),
         "cases": which_model.cases(answers, trade),
         "n": {},
         "significance": CONFIG["significance"],
+        "doubt": 0.01,
         "run": {"date": "Today", "commit": "abc"},
         "table": figure_table.of_run(VERDICTS, {"fig6": "rebound"}),
         "faults": ["FAILS: fig6-far: max 9"],

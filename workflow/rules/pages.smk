@@ -1,5 +1,12 @@
 # Pages show what the tables of a run say. Each includes these beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html", "workflow/report/page.css"]
+# Pictures of prints under our curves, saved beside what was read there.
+OVERLAYS = {
+    f"{source}/{name}": series["overlay"]
+    for source, entry in SOURCES.items()
+    for name, series in entry.get("series", {}).items()
+    if series.get("overlay")
+}
 # Series of which the note states numbers. It needs them, fig5, inelastic, rubber_sphere and yielding.
 STATED = {
     "pairs": SOURCES["cornell1999"]["series"]["pairs"],
@@ -18,6 +25,7 @@ rule report:
         curves=expand("results/curves/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         stated=[series["path"] for series in STATED.values()],
+        overlays=list(OVERLAYS.values()),
         parts=sorted(map(str, Path("workflow/report").glob("*.*"))),
     output:
         report="figures/report.html",
@@ -41,6 +49,7 @@ rule report:
             "slides": SLIDES,
             "sources": SOURCES,
             "stated": STATED,
+            "overlays": OVERLAYS,
             "symbols": reference_data.load_yaml(LEDGER)["symbols"],
             "impacts": {name: entry["explorer"] for name, entry in OF_LEDGER.items() if "explorer" in entry},
             "rows": rows_of(JUDGED),
@@ -104,7 +113,7 @@ rule your_copy:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
         versions="results/versions.json",
-        sources=sorted(map(str, Path("workflow/your_copy").glob("*.*"))) + ["workflow/explorer/files.js"],
+        sources=sorted(map(str, Path("workflow/your_copy").glob("**/*.*"))) + ["workflow/explorer/files.js"],
         curves=expand("results/curves/{figure}.csv", figure=PAPER),
         parts=EVERY_PAGE,
     output:
@@ -120,6 +129,12 @@ rule your_copy:
             for source, stated in SOURCES.items()
             for name, entry in stated.get("series", {}).items()
         },
+        allowances=lambda _: {
+            entry["reference"]: entry["allowance"]
+            for entry in config["comparisons"].values()
+            if "allowance" in entry
+        },
+        significance=lambda _: config["significance"],
         content=digest("workflow/scripts/write_your_copy.py"),
     script:
         "../scripts/write_your_copy.py"

@@ -11,5 +11,12 @@ from stronge1994.pages import your_copy
 
 curves = dict(zip(snakemake.params.figures, snakemake.input.curves, strict=True))
 version = planarimpact.__version__
-text = your_copy.page(snakemake.input.sources, curves, snakemake.params.series, version)
+text = your_copy.page(
+    snakemake.input.sources,
+    curves,
+    snakemake.params.series,
+    version,
+    snakemake.params.allowances,
+    snakemake.params.significance,
+)
 Path(snakemake.output.page).write_text(text, encoding="utf-8")

@@ -1,62 +1,76 @@
 "use strict";
 
-// Columns of numbers that another program has exported: WebPlotDigitizer (one data set or all), Engauge,
-// PlotDigitizer, PlotTracer, or any table of two columns or more.
+// Columns of numbers that WebPlotDigitizer, Engauge, PlotDigitizer, PlotTracer or others have exported, or any table.
 const exports_of_others = (() => {
-  const NUMBER = /^[-+\u2212]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
-  const WITH_COMMA = /^[-+\u2212]?\d*,\d+(e[-+]?\d+)?$/i;
-  const SEPARATORS = [/\t/, /;/, /,/, /\s+/];
+  // What other programs save for themselves, and how each of them exports a CSV.
+  const PROJECTS = [
+    [/^\s*\{[^]*"(wpd|axesColl|datasetColl)"|^[^]{257}ustar/, "WebPlotDigitizer", "“View Data”, “Download .CSV”"],
+    [/^\s*(<\?xml[^>]*>\s*)?<(!DOCTYPE engauge|Document)\b/, "Engauge", "“File”, “Export”"],
+  ];
+  const bare = (name) => name.replace(/\[.*/, "").trim().toLowerCase(); // of a column, without its unit
+  const has_words = ({ cells }) => cells.some((cell) => cell && !numbers.is_one(cell));
 
-  const cells_of = (line, separator) =>
-    line.trim().split(separator).map((cell) => cell.trim().replace(/^"(.*)"$/, "$1").trim());
-  const is_number = (cell) => NUMBER.test(cell) && Number.isFinite(Number(cell.replace("\u2212", "-")));
-  // With decimal commas as points, where commas do not stand between cells.
-  const with_points = (cells, separator) =>
-    separator.source === "," ? cells : cells.map((cell) => (WITH_COMMA.test(cell) ? cell.replace(",", ".") : cell));
-  const all_numbers = (cells) => cells.some(is_number) && cells.every((cell) => cell === "" || is_number(cell));
+  // Lines that are not empty, as cells between separators. Where blanks separate, many are as one.
+  function rows_of(text, separator) {
+    const even = separator === " " ? text.replace(/^ +| +$/gm, "").replace(/ +/g, " ")
+      : text.replace(/([,;\t]) +"/g, '$1"');
+    const rows = Papa.parse(even, { delimiter: separator, transform: (cell) => cell.trim() }).data
+      .map((cells, i) => ({ cells, line: i + 1 })).filter(({ cells }) => cells.some(Boolean));
+    const of_numbers = rows.filter((row) => !has_words(row) && row.cells.filter(Boolean).length > 1);
+    return { separator, rows, count: of_numbers.length };
+  }
 
-  // {columns: [{name, values}], said}, values null where a cell is empty; or {refused}.
-  function read(text) {
-    const lines = text.replace(/^\uFEFF/, "").split(/\r\n|\r|\n/)
-      .map((line, i) => ({ line, number: i + 1 }))
-      .filter(({ line }) => line.trim() && !line.trim().startsWith("#"));
-    if (!lines.length) return { refused: "There is no text. Paste an export here, or open its file." };
-    const tried = SEPARATORS.map((separator) => {
-      const rows = lines.map(({ line, number }) => ({ number, cells: with_points(cells_of(line, separator), separator) }));
-      return { separator, rows, count: rows.filter(({ cells }) => cells.length > 1 && all_numbers(cells)).length };
-    });
-    const best = tried.reduce((top, one) => (one.count > top.count ? one : top));
-    if (!best.count) return { refused: `No two columns of numbers in “${lines[0].line.trim().slice(0, 40)}”.` };
-    const first = best.rows.findIndex(({ cells }) => all_numbers(cells));
-    const [head, rows] = [best.rows.slice(0, first), best.rows.slice(first)];
-    // A line above the numbers has names; one that has a number too is a damaged row.
-    const wrong = head.find(({ cells }) => cells.some(is_number)) ?? rows.find(({ cells }) => !all_numbers(cells));
-    if (wrong) {
-      const cell = wrong.cells.find((one) => one !== "" && !is_number(one));
-      return { refused: `Line ${wrong.number}: “${cell}” is no number.` };
-    }
-    const width = Math.max(...rows.map(({ cells }) => cells.length));
-    const names = head.at(-1)?.cells ?? [];
-    const whole = rows.every(({ cells }) => cells.every((cell) => !cell.includes(".")));
-    if (best.separator.source === "," && width === 4 && names.length !== width && whole) {
-      return { refused: "These seem to be decimal commas, with commas between cells too. Export with decimal points." };
-    }
+  // What to do with a file that another program has saved for itself.
+  function project(text) {
+    const [, name, way] = PROJECTS.find(([pattern]) => pattern.test(text)) ?? [];
+    return name && `This is a project of ${name}. Export it there as CSV: ${way}.`;
+  }
+
+  // {columns: [{name, values}], chosen: the places of x and y by their names, or by those `wanted`, said}; or
+  // {refused}.
+  function read(text, wanted) {
+    if (project(text)) return { refused: project(text) };
+    const plain = text.replace(/^\uFEFF/, "").replace(/\r\n?/g, "\n").replace(/^[^\S\n]*#.*$/gm, "");
+    const tried = ["\t", ";", ",", " "].map((separator) => rows_of(plain, separator));
+    const { separator, rows, count } = tried.reduce((top, one) => (one.count > top.count ? one : top));
+    const beginning = plain.trim().split("\n")[0].slice(0, 40);
+    if (!count) return { refused: `No two columns of numbers in “${beginning}”. Paste an export.` };
+    const first = rows.findIndex((row) => !has_words(row));
+    const [above, body] = [rows.slice(0, first), rows.slice(first)];
+    const width = Math.max(...body.map(({ cells }) => cells.length));
+    // A line of one cell is a title. Names that have blanks cannot be told apart where blanks separate them.
+    const heads = above.filter(({ cells }) => cells.length > 1 && (separator !== " " || cells.length === width));
+    const [sets, names] = [heads.at(-2)?.cells ?? [], heads.at(-1)?.cells ?? []];
+    const fits = ({ cells }) => (names.length ? !cells.slice(names.length).some(Boolean) : cells.length === width);
+    const commas = body.some(({ cells }) => cells.some((cell) => cell.includes(",") && !numbers.is_unclear(cell)));
+    // Without names, two numbers with decimal commas look like four whole ones.
+    const whole = !names.length && separator === "," && width === 4 &&
+      !body.some(({ cells }) => cells.join().includes("."));
+    const is_unclear = ({ cells }) => whole || (!commas && cells.some(numbers.is_unclear));
+    const has_number = ({ cells }) => cells.some(numbers.is_one);
+    const [row, words] = [
+      // A line above the numbers has names; one that has a number too is a damaged row.
+      [above.find(has_number) ?? body.find(has_words), "not all cells are numbers."],
+      [heads.find(({ cells }) => cells.length > width),
+        `more than ${width} names. Put one with a comma in quotation marks.`],
+      [body.find((one) => !fits(one)),
+        `not ${names.length || width} cells. If commas are decimal, export with points.`],
+      [body.find(is_unclear), "are commas decimal? Export with points."],
+    ].find(([one]) => one) ?? [];
+    if (row) return { refused: `Line ${row.line}, “${row.cells.join(" | ")}”: ${words}` };
     // WebPlotDigitizer has the names of data sets above X, Y, X, Y, each above the first of its two.
-    const above = head.length > 1 ? head.at(-2).cells : [];
     const columns = Array.from({ length: width }, (_, i) => ({
-      name: [above[i] || above[i - 1], names[i] || `column ${i + 1}`].filter(Boolean).join(" "),
-      values: rows.map(({ cells }) => (cells[i] ? Number(cells[i].replace("\u2212", "-")) : null)),
+      own: bare(names[i] ?? ""),
+      name: [sets[i] || sets[i - 1], names[i] || `column ${i + 1}`].filter(Boolean).join(" "),
+      values: body.map(({ cells }) => (cells[i] ? numbers.read(cells[i], true) : null)),
     })).filter(({ values }) => values.some((value) => value !== null));
-    if (columns.length < 2) return { refused: "There is one column of numbers; two are needed." };
-    const commas = lines.some(({ line }) => cells_of(line, best.separator).some((cell) => WITH_COMMA.test(cell)));
-    const read_as = commas && best.separator.source !== "," ? "; decimal commas read as points" : "";
-    const said = `${rows.length} rows, ${columns.length} columns${read_as}.`;
-    return { columns, said };
+    const [x, y] = ["x", "y"].map((axis, i) => columns.findIndex(({ own }) => [axis, bare(wanted[i])].includes(own)));
+    const said = `${body.length} rows, ${columns.length} columns${commas ? "; decimal commas read as points" : ""}.`;
+    return { columns, chosen: [x < 0 ? Number(y === 0) : x, y < 0 ? Number(x < 1) : y], said };
   }
 
   // Points of two of the columns.
-  const points = (x, y) => x.values.map((value, i) => [value, y.values[i]])
-    .filter(([a, b]) => a !== null && b !== null);
+  const points = (x, y) => x.values.map((value, i) => [value, y.values[i]]).filter((pair) => !pair.includes(null));
 
-  return { read, points };
+  return { read, points, project };
 })();

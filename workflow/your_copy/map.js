@@ -1,126 +1,137 @@
 "use strict";
 
-// From values on the axes to pixels of a picture, by marks whose values are known. A scan is turned and
-// sheared: an affine map. A photo is also seen at an angle: a perspective one. Both by least squares.
+// From values on the axes to pixels of a picture, by marks whose values are known. A scan is turned and sheared,
+// a photo is also seen at an angle: a perspective. Least squares find it, with a prior for its tilt.
 const maps = (() => {
-  const UNKNOWNS = { affine: 6, perspective: 8 };
-  // A perspective is taken if it leaves less than this share of the affine map's residual for each degree of
-  // freedom, which is more than a click can err. Four marks leave it none: then if the affine map is far off.
-  const [CLEARLY, OF_CLICKS, FAR_OFF] = [0.85, 0.25, 1.5]; // the last two in pixels
-  const LEVEL = 0.02; // width over length of what counts as a line
+  const CLICK = 0.5; // px, a first guess of how far a click misses, worth four values
+  const TILT = { any: 0.1, scan: 0.01 }; // one standard deviation, for half an axis
+  const [MOST_TILTS, POOR] = [3.5, 1.5]; // of marks that fit each other; px, of a mark among them that does not
+  // Sum of variances, for marks that are off by half an axis, from which on they leave an unknown open. The run
+  // allows ten times as much.
+  const LOOSE = 1000;
+  const LEVEL = 0.02; // sine of the angle between axes that lie on one line
 
-  // Gauss elimination with the largest pivots; null if the equations depend on each other.
-  function solve(matrix, right) {
-    const rows = matrix.map((row, i) => [...row, right[i]]);
+  const add = (list) => list.reduce((sum, one) => sum + one, 0);
+  const rms = (list) => Math.sqrt(add(list.map((one) => one * one)) / list.length);
+  const dot = (a, b) => add(a.map((one, i) => one * b[i]));
+  const times = (matrix, vector) => matrix.map((row) => dot(row, vector));
+  const transposed = (matrix) => matrix[0].map((_, i) => matrix.map((row) => row[i]));
+  const far = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
+
+  // Gauss and Jordan, with the largest pivots; null if the rows depend on each other.
+  function inverse(matrix) {
+    const rows = matrix.map((row, i) => [...row, ...matrix.map((_, k) => Number(k === i))]);
     for (let i = 0; i < rows.length; i++) {
       const best = rows.slice(i).reduce((top, row, k) =>
         Math.abs(row[i]) > Math.abs(rows[top][i]) ? i + k : top, i);
       [rows[i], rows[best]] = [rows[best], rows[i]];
       if (!(Math.abs(rows[i][i]) > 1e-9)) return null;
+      rows[i] = rows[i].map((cell) => cell / rows[i][i]);
       for (let k = 0; k < rows.length; k++) {
-        const share = k === i ? 0 : rows[k][i] / rows[i][i];
+        const share = k === i ? 0 : rows[k][i];
         if (share) rows[k] = rows[k].map((cell, j) => cell - share * rows[i][j]);
       }
     }
-    return rows.map((row, i) => row.at(-1) / row[i]);
+    return rows.map((row) => row.slice(rows.length));
   }
 
-  const mean = (list) => list.reduce((sum, one) => sum + one, 0) / list.length;
-  const rms = (list) => Math.sqrt(mean(list.map((one) => one * one)));
+  // Normal equations of rows; the seventh unknown and the next are tilts, with this prior.
+  const normal = (rows, prior = 0) => transposed(rows).map((one, i, all) =>
+    all.map((other, k) => dot(one, other) + (i === k && i > 5 ? prior : 0)));
 
-  // Middle and size of points along both directions, and how wide they lie beside a line.
-  function spread(points) {
-    const middle = [0, 1].map((i) => mean(points.map((point) => point[i])));
-    const size = [0, 1].map((i) => rms(points.map((point) => point[i] - middle[i])));
-    const both = mean(points.map((p) => (p[0] - middle[0]) * (p[1] - middle[1]))) / (size[0] * size[1]);
-    const width = size[0] > 0 && size[1] > 0 ? Math.sqrt(Math.max(0, 1 - Math.abs(both)) / (1 + Math.abs(both))) : 0;
-    return { middle, size, width };
-  }
+  const is_loose = (rows) => !(add(inverse(normal(rows))?.map((row, i) => row[i]) ?? [Infinity]) < LOOSE);
 
-  const image = ([a, b, c, d, e, f, g = 0, h = 0], [x, y]) => {
+  // How errors of the unknowns move a place along each axis, in halves of it.
+  const basis = ([x, y]) => [[x, y, 1, 0, 0, 0, x * x, x * y], [0, 0, 0, x, y, 1, x * y, y * y]];
+
+  const image = ([a, b, c, d, e, f, g, h], [x, y]) => {
     const w = g * x + h * y + 1;
     return [(a * x + b * y + c) / w, (d * x + e * y + f) / w];
   };
 
-  // The inverse of a map, by the adjugate of its matrix.
-  function inverse([a, b, c, d, e, f, g = 0, h = 0]) {
-    const adjugate = [e - f * h, c * h - b, b * f - c * e, f * g - d, a - c * g, c * d - a * f,
-      d * h - e * g, b * g - a * h, a * e - b * d];
-    return adjugate.slice(0, 8).map((one) => one / adjugate[8]);
-  }
-
-  const dot = (a, b) => a.reduce((sum, one, i) => sum + one * b[i], 0);
-
-  // How both coordinates of an image change with each unknown.
-  function slopes(found, [x, y]) {
-    const [u, v] = image(found, [x, y]);
-    const w = 1 / ((found[6] ?? 0) * x + (found[7] ?? 0) * y + 1);
-    return [[x * w, y * w, w, 0, 0, 0, -u * x * w, -u * y * w], [0, 0, 0, x * w, y * w, w, -v * x * w, -v * y * w]]
-      .map((row) => row.slice(0, found.length));
-  }
-
-  // Gauss and Newton, from the middle of the picture; an affine map takes one step. With the matrix of the
-  // last step, whose inverse is the covariance of the unknowns.
-  function unknowns(kind, from, to) {
-    let [found, matrix] = [[1, 0, 0, 0, 1, 0, 0, 0].slice(0, UNKNOWNS[kind]), null];
-    for (let step = 0; step < (kind === "affine" ? 1 : 12); step++) {
-      const rows = from.flatMap((point) => slopes(found, point));
-      const off = from.flatMap((point, i) => image(found, point).map((one, k) => to[i][k] - one));
-      const columns = found.map((_, i) => rows.map((row) => row[i]));
-      matrix = columns.map((one) => columns.map((other) => dot(one, other)));
-      const change = solve(matrix, columns.map((one) => dot(one, off)));
-      if (!change) return null;
+  // Gauss and Newton. The first step, from a map of everything to the middle, leads to the best map without tilt.
+  function solved(from, to, sigma, prior) {
+    let found = [0, 0, 0, 0, 0, 0, 0, 0];
+    let off = to;
+    for (let step = 0; step < 15; step++) {
+      const rows = from.flatMap(([x, y]) => {
+        const [u, v] = image(found, [x, y]);
+        const w = sigma * (found[6] * x + found[7] * y + 1);
+        return [[x, y, 1, 0, 0, 0, -u * x, -u * y], [0, 0, 0, x, y, 1, -v * x, -v * y]]
+          .map((row) => row.map((one) => one / w));
+      });
+      const right = times(transposed(rows), off.flat()).map((one, i) => one / sigma - (i > 5 ? prior * found[i] : 0));
+      const covariance = inverse(normal(rows, prior));
+      if (!covariance) return null;
+      const change = times(covariance, right);
       found = found.map((one, i) => one + change[i]);
+      off = from.map((place, i) => image(found, place).map((one, k) => to[i][k] - one));
     }
-    return found.every(Number.isFinite) ? { found, matrix } : null;
+    const squares = add(off.flat().map((one) => one * one));
+    return { found, off, squares, cost: squares / sigma ** 2 + prior * (found[6] ** 2 + found[7] ** 2) };
   }
 
-  // The map for marks {x, y, u, v}: values on the axes, and pixels.
-  function of_kind(kind, marks, values, pixels) {
-    const scaled = ({ middle, size }, [a, b]) => [(a - middle[0]) / size[0], (b - middle[1]) / size[1]];
-    const back = ({ middle, size }, [a, b]) => [a * size[0] + middle[0], b * size[1] + middle[1]];
-    const solved = unknowns(kind, marks.map((m) => scaled(values, [m.x, m.y])),
-      marks.map((m) => scaled(pixels, [m.u, m.v])));
-    if (!solved) return null;
-    const { found, matrix } = solved;
-    const reverse = inverse(found);
-    const to_pixels = (point) => back(pixels, image(found, scaled(values, point)));
-    const to_axes = (point) => back(values, image(reverse, scaled(pixels, point)));
-    const off = marks.map((m) => {
-      const [[u, v], [x, y]] = [to_pixels([m.x, m.y]), to_axes([m.u, m.v])];
-      return { u: m.u - u, v: m.v - v, x: x - m.x, y: y - m.y };
+  // The mark without which the others fit best, and how far it is from where they put it.
+  function worst(from, to, prior) {
+    const all = from.map((_, i) => {
+      const [rest, places] = [from, to].map((list) => list.filter((_, k) => k !== i));
+      const own = solved(rest, places, CLICK, prior);
+      return { i, cost: own?.cost ?? Infinity, off: own ? far(image(own.found, from[i]), to[i]) : 0 };
     });
-    const freedom = 2 * marks.length - UNKNOWNS[kind];
-    const of_freedom = freedom ? Math.sqrt(off.reduce((sum, o) => sum + o.u ** 2 + o.v ** 2, 0) / freedom) : null;
-    const residual = { pixels: rms(off.map((o) => Math.hypot(o.u, o.v))), x: rms(off.map((o) => o.x)),
-      y: rms(off.map((o) => o.y)) };
-    // By how much the marks leave a place uncertain, in pixels along each direction.
-    const sigma = (place) => (of_freedom ?? 0) * Math.sqrt(mean(
-      slopes(found, scaled(values, to_axes(place))).map((row) => dot(row, solve(matrix, row)))));
+    return all.reduce((best, one) => (one.cost < best.cost ? one : best));
+  }
+
+  // The map for marks {x, y, u, v}, values on axes of this range and pixels; or why there is none: {refused}.
+  function fit(marks, range, is_scan) {
+    if (marks.length < 3) {
+      return { refused: `Set ${3 - marks.length} more of the marks: four or more are needed, three of a flat-bed scan.` };
+    }
+    const [mid, half] = [1, -1].map((sign) => range.map(([low, high]) => (high + sign * low) / 2));
+    const scaled = (point) => point.map((one, i) => (one - mid[i]) / half[i]);
+    const from = marks.map(({ x, y }) => scaled([x, y]));
+    const on_line = "The marks lie on one line. Set one that is away from it, on the other axis.";
+    if (is_loose(from.map((place) => [1, ...place]))) return { refused: on_line };
+    if (!is_scan && is_loose(from.flatMap(basis))) {
+      return { refused: "Set the corner opposite the origin too, or three marks on each axis. Fewer are enough only " +
+        "if this is a flat-bed scan and no photo: then tick it." };
+    }
+    const middle = ["u", "v"].map((key) => add(marks.map((mark) => mark[key])) / marks.length);
+    const to = marks.map(({ u, v }) => [u - middle[0], v - middle[1]]);
+    const tilt = is_scan ? TILT.scan : TILT.any;
+    const freedom = Math.max(0, 2 * marks.length - 8);
+    const sigma_of = ({ squares }) => Math.sqrt((1 + squares) / (4 + freedom));
+    const first = solved(from, to, CLICK, tilt ** -2);
+    const { found, off, squares } = solved(from, to, sigma_of(first), tilt ** -2);
+    const sigma = sigma_of({ squares });
+    const wrong = sigma > POOR && marks.length > 4 ? worst(from, to, tilt ** -2) : null;
+    const [a, b, c, d, e, f, g, h] = found;
+    const [x_axis, y_axis] = [[a - g * c, d - g * f], [b - h * c, e - h * f]];
+    const sine = (x_axis[0] * y_axis[1] - x_axis[1] * y_axis[0]) / Math.hypot(...x_axis) / Math.hypot(...y_axis);
+    const problems = [
+      [!(Math.hypot(g, h) < (marks.length < 5 ? MOST_TILTS * tilt : 0.9)),
+        "The marks do not fit each other: set them again, or correct their numbers."],
+      [sine > LEVEL, "The picture would be mirrored: are two marks exchanged, or is a sign wrong?"],
+      [!(sine < -LEVEL), on_line],
+    ].filter(([is_so]) => is_so);
+    if (problems.length) return { refused: problems[0][1], worst: wrong };
+    const back = inverse([[a, b, c], [d, e, f], [g, h, 1]]).flat().map((one, _, all) => one / all[8]);
+    const to_pixels = (point) => image(found, scaled(point)).map((one, i) => one + middle[i]);
+    const to_axes = (place) =>
+      image(back, place.map((one, i) => one - middle[i])).map((one, i) => one * half[i] + mid[i]);
     // Units of the axes for a pixel.
-    const scale = (point) => {
-      const [right, left] = [1, -1].map((step) => to_axes([point[0] + step / 2, point[1]]));
-      const [down, up] = [1, -1].map((step) => to_axes([point[0], point[1] + step / 2]));
+    const scale = ([u, v]) => {
+      const [right, left, down, up] = [[u + 0.5, v], [u - 0.5, v], [u, v + 0.5], [u, v - 0.5]].map(to_axes);
       return [0, 1].map((i) => Math.hypot(right[i] - left[i], down[i] - up[i]));
     };
-    return { kind, to_pixels, to_axes, off, of_freedom, residual, sigma, scale };
+    // By how much errors of the unknowns move a point along both axes, and their covariance if marks have these sigmas.
+    const shifts = (point) => basis(scaled(point)).map((row, i) => row.map((one) => one * half[i]));
+    const covariance = (sigmas) => inverse(normal(
+      from.flatMap((place) => basis(place).map((row, i) => row.map((one) => one * half[i] / sigmas[i]))), tilt ** -2));
+    return {
+      tilt, freedom, sigma, off: off.map((one) => Math.hypot(...one)), residual: Math.sqrt(squares / marks.length),
+      worst: wrong, to_pixels, to_axes, scale, shifts, covariance,
+    };
   }
 
-  // The map, or why there is none: {refused}.
-  function fit(marks) {
-    if (marks.length < 3) {
-      return { refused: `Set ${3 - marks.length} more of the marks: three are needed, six or more are better.` };
-    }
-    const [values, pixels] = [spread(marks.map((m) => [m.x, m.y])), spread(marks.map((m) => [m.u, m.v]))];
-    if (Math.min(values.width, pixels.width) < LEVEL) {
-      return { refused: "The marks lie on one line. Set one that is away from it, on the other axis." };
-    }
-    const [affine, perspective] = ["affine", "perspective"].map((kind) =>
-      2 * marks.length >= UNKNOWNS[kind] ? of_kind(kind, marks, values, pixels) : null);
-    const better = perspective && (perspective.of_freedom === null ? affine.of_freedom > FAR_OFF
-      : affine.of_freedom > OF_CLICKS && perspective.of_freedom < CLEARLY * affine.of_freedom);
-    return better ? perspective : affine;
-  }
-
-  return { fit, rms };
+  return { CLICK, fit, inverse, transposed, times, dot, rms, far };
 })();

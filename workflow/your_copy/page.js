@@ -3,200 +3,271 @@
 // What the reader has done stands in `state`, which undo takes back; all else is drawn from it.
 (() => {
   const get = (id) => document.getElementById(id);
-  const [sheet, stage, picture] = ["sheet", "stage", "picture-of-copy"].map(get);
-  const FIELDS = ["who", "when", "from", "incidence"];
+  const [sheet, stage] = ["sheet", "stage"].map(get);
+  const TEXTS = ["who", "when", "from", "incidence", "scale"];
   const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-  const name_of = (column) => column.replace(/ \[.*/, "").replaceAll("_", " ");
+  const MOST_NOTICED = 10; // per cent; above, the run cannot tell
 
-  let state = null;
-  const past = []; // states before, as text
-  let kept = {}; // the last states of other panels
-  let dark = null; // darkness of the picture, once a line is followed
+  let panels = {}; // the state of each that was visited
+  let state = null; // that of the panel that is seen
+  const pictures = []; // all that were opened
+  let shown = null; // number of the one that is seen
+  const past = []; // all this before, as text
+  let map = null; // that of the marks, as it is drawn
   let imported = null; // columns of an export
 
   const panel = () => DATA.panels[state.panel];
-  const placed = () => state.marks.filter((m) => m.u !== null && m.x !== null && m.y !== null);
-  const fitted = () => maps.fit(placed());
-  const reading = () => state.readings[state.second ? 1 : 0];
-  const size = () => Math.hypot(picture.naturalWidth, picture.naturalHeight);
-  const sigmas = () => readings.sigmas(fitted(), state.readings, state.widths, size(), chosen_series()?.line);
+  const picture = () => pictures[shown];
+  const reading = () => state.readings[state.turn];
   const chosen_series = () => panel().series.find(({ id }) => id === state.series);
+  const is_line = () => Boolean(chosen_series()?.line);
+  const texts = () => Object.fromEntries(TEXTS.map((id) => [id, get(id).value]));
+  const name_of = (column) => column.replace(/ \[.*/, "").replaceAll("_", " ");
   const spans = ({ range }) => range.map(([low, high]) => high - low);
+  const zoom = () => sheet.getBoundingClientRect().width / picture()?.naturalWidth || 1;
+  const refuse = (text) => { get("refused").textContent = text; };
+
+  // Marks that have numbers and a place.
+  const placed = () => state.marks.flatMap(({ x, y, at }, i) =>
+    (at && x !== null && y !== null ? [{ i, x, y, u: at[0], v: at[1] }] : []));
+
+  // The mark that a click sets: one that was picked, or the first that has no place, or a further one.
+  function next_mark() {
+    const unset = state.marks.findIndex(({ at }) => !at);
+    return state.picked ?? (unset < 0 ? state.marks.length : unset);
+  }
+
+  function chosen_place() {
+    const { list, i } = state.chosen ?? {};
+    return { marks: state.marks[i]?.at, points: reading()[i], clicks: state.clicks[i] }[list];
+  }
+
+  const judged = () => readings.judged(map, state, is_line(), picture()?.naturalWidth);
 
   // A value on an axis, to a thousandth of it, with its unit.
   function said(value, i) {
-    const column = [panel().x, panel().y][i];
+    const unit = [panel().x, panel().y][i].match(/\[(.*)\]/)[1].replace(/^1$/, "").replace(/\bmu\b/, "µ");
     const digits = Math.max(0, Math.ceil(3 - Math.log10(spans(panel())[i])));
-    return `${value.toFixed(digits).replace("-", "\u2212")} ${readings.unit_of(column).replace(/\bmu\b/, "µ")}`.trim();
+    return `${value.toFixed(digits).replace("-", "\u2212")} ${unit}`.trim();
   }
 
-  const along = ({ x, y }) => `${said(x, 0)} along x, ${said(y, 1)} along y.`;
+  const nothing_read = () => ({ readings: [[], []], width: 0, clicks: [], turn: 0, chosen: null, by: "", saved: "" });
 
-  const NOTHING_READ = { readings: [[], []], widths: [0, 0], clicks: [], second: false, chosen: null, by: "" };
-
-  function fresh(name) {
-    const { marks, series } = DATA.panels[name];
-    return {
-      panel: name, mode: "marks", marks: marks.map(([x, y]) => ({ x, y, u: null, v: null })), next: 0, off: [], cursor: null,
-      series: series[0]?.id ?? "", follow: series[0]?.line ?? false, ...structuredClone(NOTHING_READ),
+  function enter(name) {
+    const { marks, series: [first] } = DATA.panels[name];
+    state = panels[name] ??= {
+      panel: name, mode: "marks", marks: marks.map(([x, y]) => ({ x, y, at: null })), picked: null, cursor: null,
+      flat: state?.flat ?? false, off: [], series: first?.id ?? "", follow: first?.line ?? false, ...nothing_read(),
     };
+  }
+
+  const whole = () => ({ name: state.panel, panels, shown });
+
+  function restore({ name, ...given }) {
+    ({ panels, shown } = given);
+    state = panels[name];
   }
 
   // Change the state, so that it can be undone.
   function change(action) {
-    past.push(JSON.stringify(state));
+    past.push(JSON.stringify(whole()));
+    refuse("");
     action();
     get("saved").textContent = "";
     draw();
   }
 
   function undo() {
-    if (past.length) state = JSON.parse(past.pop());
-    show_panel();
+    if (past.length) restore(JSON.parse(past.pop()));
+    draw();
   }
 
   // Curves of the panel as they are drawn: forces of an unknown scale are multiplied.
-  function shown() {
-    const factor = panel().scale ? typed(get("scale").value) || 1 : 1;
-    return panel().curves.map((curve, i) => ({ ...curve, i, y: curve.y.map((y) => y * factor) }))
-      .filter(({ i }) => !state.off.includes(i));
+  function curves_here() {
+    const factor = panel().scale ? numbers.read(get("scale").value) || 1 : 1;
+    return panel().curves.map((curve, i) => ({ ...curve, i, y: curve.y.map((y) => y * factor) }));
   }
 
-  // Distance of a point from a curve if both axes have these scales.
-  const distance = ({ x, y }, [px, py], [sx, sy]) =>
-    trace.beside([px / sx, py / sy], x.map((value, i) => [value / sx, y[i] / sy]));
-
-  // How far a point lies above a curve, in the unit of its axis.
-  function height({ x, y }, [px, py]) {
-    const order = x.map((value, i) => [value, y[i]]).sort((a, b) => a[0] - b[0]);
-    const after = order.findIndex(([value]) => value >= px);
-    const high = order.at(after);
-    const low = after < 1 ? high : order[after - 1];
-    const share = high[0] > low[0] ? (px - low[0]) / (high[0] - low[0]) : 0;
-    return py - low[1] - share * (high[1] - low[1]);
-  }
+  const drawn = () => curves_here().filter(({ i }) => !state.off.includes(i));
 
   // --- what is seen ---
 
+  function set(property, values) {
+    for (const [id, value] of Object.entries(values)) get(id)[property] = value;
+  }
+
   function draw() {
-    const map = fitted();
-    const closed = !picture.naturalWidth;
-    draw_marks(map);
-    draw_curves(map);
+    map = maps.fit(placed(), panel().range, state.flat);
+    draw_picture();
+    draw_panel();
+    draw_marks();
+    draw_curves();
     draw_signs();
     draw_loupe();
-    const found = sigmas();
-    get("points").textContent =
-      `First reading: ${state.readings[0].length} points. Second: ${state.readings[1].length}.`;
-    get("sigmas").textContent = found.refused ?? `Uncertainty (sigma): ${along(found)}`;
-    for (const id of ["trace", "save", "export-take"]) get(id).disabled = closed || map.refused || !state.series;
-    get("second").disabled = !state.readings[0].length;
-    get("second").textContent = state.second ? "Back to the first reading" : "Read a second time";
-    get("with-incidence").hidden = !chosen_series()?.open.includes("incidence");
-    get("picture").disabled = closed;
-    get("undo").disabled = !past.length;
-    get("follow").checked = state.follow;
-    get("trace").hidden = !state.follow;
-    get(`mode-${state.mode}`).checked = true;
-    get("task").textContent = closed ? "" : task(map);
+    const closed = !picture();
+    const [first, second] = state.readings.map(({ length }) => length);
+    const [unread, line] = [Boolean(closed || map.refused || !state.series), is_line()];
+    set("disabled", {
+      trace: unread || state.clicks.length < 2, save: unread, "export-take": unread, second: !first, picture: closed,
+      "save-all": closed, undo: !past.length,
+    });
+    set("hidden", {
+      second: line, "with-follow": !line, "with-width": !line, trace: !state.follow, "with-scale": !panel().scale,
+      "no-series": panel().series.length > 0, "with-incidence": !chosen_series()?.open.includes("incidence"),
+    });
+    set("checked", { flat: state.flat, follow: state.follow, [`mode-${state.mode}`]: true });
+    set("value", { panel: state.panel, series: state.series, width: state.width ? state.width.toFixed(1) : "" });
+    set("textContent", {
+      task: closed ? "" : task(),
+      points: line ? `${first} points.` : `First reading: ${first} points. Second: ${second}.`,
+      sigmas: state.series && uncertainty(judged()),
+      second: state.turn ? "Back to the first reading" : "Read a second time",
+    });
+  }
+
+  // Sigma of a point, and what the run would notice with it.
+  function uncertainty(found) {
+    if (found.refused) return found.refused;
+    const { allowance, id } = chosen_series();
+    // That of measured points is the last one.
+    const curve = curves_here().find(({ series }) => series === id) ?? curves_here().at(-1);
+    const noticed = 100 * readings.noticed(map, found, curve, allowance, panel().scale);
+    const words = noticed > MOST_NOTICED
+      ? `The run could not tell: only errors above ${MOST_NOTICED} % would be noticed.`
+      : `A curve ${readings.round(noticed, 2)} % ${panel().scale ? "wider" : "larger"} than ours would fail.`;
+    return `Uncertainty (sigma): ${said(found.sigmas[0], 0)} along x, ${said(found.sigmas[1], 1)} along y. ${words}`;
+  }
+
+  // A mark that does not fit the others, in words.
+  function worst() {
+    if (!map.worst) return "";
+    const [number, off] = [placed()[map.worst.i].i + 1, map.worst.off.toFixed(0)];
+    return `Mark ${number} is ${off} px off where the others put it: set it again, or correct its numbers.`;
   }
 
   // What a click does now.
-  function task(map) {
+  function task() {
     if (state.mode === "marks") {
-      const { x = null, y = null } = state.marks[state.next] ?? {};
-      const where = x === null || y === null ? "a further mark" : `${name_of(panel().x)} ${x}, ${name_of(panel().y)} ${y}`;
-      return `Click where ${where} stands.`;
+      const { x = null, y = null } = state.marks[next_mark()] ?? {};
+      const place = `${name_of(panel().x)} ${x}, ${name_of(panel().y)} ${y}`;
+      return `${worst()} Click where ${x === null || y === null ? "a further mark" : place} stands.`;
     }
-    if (map.refused) return map.refused;
-    if (state.mode === "look" || !state.series) return "Our curves lie over your copy. To read points, go to step 4.";
-    const how = state.follow ? "Click along the line, then “Follow it”." : "Click the middle of each marker.";
-    return `${state.second ? "Second" : "First"} reading of: ${chosen_series().name}. ${how}`;
+    if (map.refused || map.worst) return `${map.refused ?? ""} ${worst()}`;
+    if (state.mode === "look" || !state.series) {
+      const moves = state.chosen?.list === "marks" ? " Arrow keys move the chosen mark; Escape lets it go." : "";
+      return `Our curves lie over your copy. To read points, go to step 4.${moves}`;
+    }
+    const again = state.turn || !state.readings[0].length ? "." : ", then “Read a second time”.";
+    const how = state.follow ? "Click along the line, then “Follow it”." : `Click the middle of each marker${again}`;
+    const which = is_line() ? "Reading" : `${state.turn ? "Second" : "First"} reading`;
+    return `${which} of: ${chosen_series().name}. ${how}`;
   }
 
-  function draw_marks(map) {
+  function draw_picture() {
+    document.body.classList.toggle("opened", Boolean(picture()));
+    if (!picture() || sheet.dataset.shown === `${shown}`) return;
+    sheet.dataset.shown = shown;
+    const { naturalWidth: width, naturalHeight: height, src: href } = picture();
+    sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    sheet.style.setProperty("--ratio", width / height);
+    for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
+  }
+
+  const style_of = ({ line }, i) => `curve c${i % 6} ${line}`;
+
+  function draw_panel() {
+    const { curves, series } = panel();
+    if (get("curves").dataset.panel === state.panel) return;
+    get("curves").dataset.panel = state.panel;
+    get("curves").innerHTML = curves.map((curve, i) => `<label><input type="checkbox" data-curve="${i}">
+      <svg viewBox="0 0 34 8" aria-hidden="true"><path class="${style_of(curve, i)}" d="M0,4H34"/></svg>
+      ${curve.name}</label>`).join("");
+    get("series").replaceChildren(...series.map(({ id, name }) => new Option(name, id)));
+  }
+
+  function draw_marks() {
     const [body] = get("marks").tBodies;
     const field = (axis, i) => `<td><input class="mark-${axis}" data-mark="${i}" inputmode="decimal"
       aria-label="${axis} of mark ${i + 1}"></td>`;
     // Rows are kept while their number is the same: who types would lose the field.
     if (body.rows.length !== state.marks.length) {
       body.innerHTML = state.marks.map((_, i) => `<tr><td><button type="button" class="mark-pick" data-mark="${i}"
-        aria-label="Set mark ${i + 1} with the next click">${i + 1}</button></td>${field("x", i)}${field("y", i)}<td></td>
-        <td></td><td><button type="button" class="mark-drop" data-mark="${i}" aria-label="Remove mark ${i + 1}">×</button></td>
-        </tr>`).join("");
+        aria-label="Set mark ${i + 1} with the next click">${i + 1}</button></td>${field("x", i)}${field("y", i)}
+        <td></td><td></td><td><button type="button" class="mark-drop" data-mark="${i}"
+        aria-label="Remove mark ${i + 1}">×</button></td></tr>`).join("");
     }
-    state.marks.forEach((mark, i) => {
-      const [, x, y, place, beside] = body.rows[i].cells;
-      const off = map.off?.[placed().indexOf(mark)];
-      body.rows[i].className = i === state.next && state.mode === "marks" ? "next" : "";
-      for (const [cell, value] of [[x, mark.x], [y, mark.y]]) {
-        if (document.activeElement !== cell.firstChild) cell.firstChild.value = value ?? "";
-      }
-      place.textContent = mark.u === null ? "not set" : `${mark.u.toFixed(1)}, ${mark.v.toFixed(1)}`;
-      beside.textContent = off ? Math.hypot(off.u, off.v).toFixed(2) : "";
+    const set_ones = placed();
+    state.marks.forEach(({ x, y, at }, i) => {
+      const { cells } = body.rows[i];
+      body.rows[i].className = i === next_mark() && state.mode === "marks" ? "next" : "";
+      [x, y].forEach((value, k) => { cells[k + 1].firstChild.value = value ?? ""; });
+      cells[3].textContent = at ? at.map((one) => one.toFixed(1)).join(", ") : "not set";
+      cells[4].textContent = map.off?.[set_ones.findIndex((one) => one.i === i)]?.toFixed(2) ?? "";
     });
-    get("fit").className = map.refused && placed().length > 2 ? "bad" : "";
-    if (map.refused) return get("fit").replaceChildren(map.refused);
-    const quality = map.of_freedom === null ? ". A further mark would show how good it is."
-      : `; residual ${map.residual.pixels.toFixed(2)} px: ${along(map.residual)}`;
-    return get("fit").replaceChildren(
-      `${map.kind === "affine" ? "Affine" : "Perspective"} map from ${placed().length} marks${quality}`);
+    const quality = () => (map.freedom ? `residual ${map.residual.toFixed(2)} px.`
+      : "a further one would show how good they are.");
+    get("fit").className = map.worst || (map.refused && set_ones.length > 2) ? "bad" : "";
+    get("fit").textContent = map.refused ?? `${set_ones.length} marks, ${quality()}`;
   }
 
-  const style_of = ({ line }, i) => `curve c${i % 6} ${line}`;
-
-  function draw_curves(map) {
-    const { curves } = panel();
-    const list = get("curves");
-    if (list.dataset.panel !== state.panel) {
-      list.dataset.panel = state.panel;
-      list.innerHTML = curves.map((curve, i) => `<label><input type="checkbox" data-curve="${i}"> <svg viewBox="0 0 34 8"
-        aria-hidden="true"><path class="${style_of(curve, i)}" d="M0,4H34"/></svg> ${curve.name}</label>`).join("");
-    }
-    list.querySelectorAll("input").forEach((box, i) => { box.checked = !state.off.includes(i); });
-    get("lines").innerHTML = map.refused ? "" : shown().map((curve) => {
+  function draw_curves() {
+    get("curves").querySelectorAll("input").forEach((box, i) => { box.checked = !state.off.includes(i); });
+    get("lines").classList.toggle("unread", state.mode === "read"); // nobody shall read the model
+    get("lines").innerHTML = map.refused ? "" : drawn().map((curve) => {
       const places = curve.x.map((x, k) => map.to_pixels([x, curve.y[k]]).map((one) => one.toFixed(2)).join(","));
       return `<polyline class="${style_of(curve, curve.i)}" points="${places.join(" ")}"/>`;
     }).join("");
   }
 
-  const zoom = () => sheet.getBoundingClientRect().width / picture.naturalWidth || 1;
+  // Lines of the map at round values, with their numbers, to be seen beside those of the print.
+  function grid() {
+    const { range } = panel();
+    const size = 13 / zoom();
+    return range.flatMap(([low, high], i) => {
+      const step = 10 ** Math.floor(Math.log10(0.9 * (high - low)));
+      const at = (value, other) => map.to_pixels(i ? [other, value] : [value, other]);
+      return Array.from({ length: Math.floor((high - low) / step + 1.001) }, (_, k) => {
+        const value = low + k * step;
+        const [start, end] = range[1 - i].map((other) => at(value, other));
+        const [u, v] = at(value, 0);
+        return `<path d="M${start}L${end}"/><text x="${u + size / 4}" y="${v - size / 4}" font-size="${size}">` +
+          `${readings.round(value, 6)}</text>`;
+      });
+    }).join("");
+  }
 
   function draw_signs() {
     const far = 6 / zoom();
-    const cross = ([u, v], style) =>
-      `<path class="sign ${style}" d="M${u - far},${v}H${u + far}M${u},${v - far}V${v + far}"/>`;
-    const is_chosen = (list, i) => (state.chosen?.list === list && state.chosen.i === i ? "chosen" : "");
+    const cross = ([u, v]) => `<path d="M${u - far},${v}H${u + far}M${u},${v - far}V${v + far}"`;
+    const circle = ([u, v]) => `<circle cx="${u}" cy="${v}" r="${far}"`;
+    const signs = (places, style, form) => places.map((place) => place && `${form(place)} class="sign ${style} ${
+      place === chosen_place() ? "chosen" : ""}"/>`);
     get("signs").innerHTML = [
-      ...state.marks.map(({ u, v }, i) => (u === null ? "" : cross([u, v], `mark ${is_chosen("marks", i)}`))),
-      ...reading().map(([u, v], i) =>
-        `<circle class="sign point ${is_chosen("points", i)}" cx="${u}" cy="${v}" r="${far}"/>`),
-      ...state.clicks.map((place) => cross(place, "click")),
-      ...(state.cursor ? [cross(state.cursor, "cursor")] : []),
+      map.refused || state.mode === "read" ? "" : `<g class="grid invitation">${grid()}</g>`, // not in a saved picture
+      ...signs(state.marks.map(({ at }) => at), "mark", cross), ...signs(reading(), "point", circle),
+      ...signs(state.clicks, "click", cross), ...signs([state.cursor], "cursor", cross),
     ].join("");
   }
 
-  function chosen_place() {
-    const { list, i } = state.chosen ?? {};
-    const mark = list === "marks" ? state.marks[i] : null;
-    if (mark) return mark.u === null ? null : [mark.u, mark.v];
-    return list === "points" ? reading()[i] ?? null : null;
-  }
-
+  // The magnifier, in the other corner if it would hide the place.
   function draw_loupe(at = chosen_place() ?? state.cursor) {
-    get("close-up").hidden = !at;
-    if (at) get("loupe").setAttribute("viewBox", `${at[0] - 10} ${at[1] - 10} 20 20`);
+    const box = get("close-up");
+    box.hidden = !at || !get("magnifier").checked;
+    if (box.hidden) return;
+    get("loupe").setAttribute("viewBox", `${at[0] - 10} ${at[1] - 10} 20 20`);
+    const [{ left, top }, own] = [sheet, get("loupe")].map((one) => one.getBoundingClientRect());
+    const [x, y] = [left + zoom() * at[0], top + zoom() * at[1]];
+    if (x > own.left && x < own.right && y > own.top && y < own.bottom) box.classList.toggle("left");
   }
 
   // Values of the axes at a place, and how far it is from the nearest curve.
   function tell(place) {
-    const map = fitted();
     if (map.refused) return;
     const point = map.to_axes(place);
-    const all = shown().map((curve) => ({ curve, near: distance(curve, point, spans(panel())) }));
-    const { curve } = all.reduce((best, one) => (one.near < best.near ? one : best), { near: Infinity });
-    const above = curve ? height(curve, point) : 0;
-    const beside = curve ? `; ${said(Math.abs(above), 1)} ${above < 0 ? "below" : "above"} “${curve.name}”` : "";
+    const all = (state.mode === "read" ? [] : drawn())
+      .map((curve) => ({ name: curve.name, far: readings.nearest(curve, point, map.scale(place)).far }));
+    const [nearest] = all.sort((a, b) => a.far - b.far);
+    const beside = nearest ? `; ${nearest.far.toFixed(1)} px from “${nearest.name}”` : "";
     const [x, y] = [panel().x, panel().y].map((column, i) => `${name_of(column)} ${said(point[i], i)}`);
     get("pointer").textContent = `${x}, ${y}${beside}`;
   }
@@ -208,63 +279,62 @@
     return [(clientX - left) / zoom(), (clientY - top) / zoom()];
   }
 
-  // The first mark that is not set, or a further one.
-  function next_mark() {
-    const unset = state.marks.findIndex((mark) => mark.u === null);
-    return unset < 0 ? state.marks.length : unset;
-  }
-
-  function put([u, v]) {
+  function put(place) {
     if (state.mode === "marks") {
       change(() => {
-        if (state.next >= state.marks.length) state.marks.push({ x: null, y: null });
-        Object.assign(state.marks[state.next], { u, v });
-        state.chosen = { list: "marks", i: state.next };
-        state.next = next_mark();
-        if (state.next === state.marks.length) state.mode = "look";
+        const i = next_mark();
+        state.marks[i] = { x: null, y: null, ...state.marks[i], at: [...place] };
+        Object.assign(state, { picked: null, chosen: { list: "marks", i } });
+        if (state.marks.every(({ at }) => at)) state.mode = "look";
       });
-    } else if (state.mode === "read" && state.series && !fitted().refused) {
+    } else if (state.mode === "read" && state.series && !map.refused) {
       change(() => {
-        if (state.follow) return void state.clicks.push([u, v]);
-        // A click on a point that was read chooses it.
-        const there = reading().findIndex(([a, b]) => Math.hypot(a - u, b - v) < 6 / zoom());
-        state.chosen = { list: "points", i: there < 0 ? reading().push([u, v]) - 1 : there };
+        const [list, places] = state.follow ? ["clicks", state.clicks] : ["points", reading()];
+        // A click on one chooses it; else it is new, and behind the chosen one.
+        let i = places.findIndex((one) => maps.far(one, place) < 6 / zoom());
+        if (i < 0) {
+          i = state.chosen?.list === list ? state.chosen.i + 1 : places.length;
+          places.splice(i, 0, [...place]);
+          if (!state.follow) state.by = "";
+        }
+        state.chosen = { list, i };
       });
     }
-    tell([u, v]);
+    tell(place);
   }
 
-  // Move the chosen mark or point, or the cursor of who has no mouse.
-  function nudge([du, dv]) {
-    const [u, v] = chosen_place() ?? state.cursor ?? [picture.naturalWidth / 2, picture.naturalHeight / 2];
-    const place = [u + du, v + dv];
+  // The cursor of who has no mouse.
+  const cursor = () => state.cursor ??= [picture().naturalWidth / 2, picture().naturalHeight / 2];
+
+  // Move what is chosen, or the cursor.
+  function nudge(step) {
     change(() => {
-      if (!chosen_place()) state.cursor = place;
-      else if (state.chosen.list === "points") reading()[state.chosen.i] = place;
-      else Object.assign(state.marks[state.chosen.i], { u: place[0], v: place[1] });
+      const place = chosen_place() ?? cursor();
+      Object.assign(place, place.map((one, i) => one + step[i]));
     });
-    tell(place);
+    tell(chosen_place() ?? cursor());
   }
 
   function remove_chosen() {
     change(() => {
-      if (state.chosen?.list === "points") reading().splice(state.chosen.i, 1);
-      if (state.chosen?.list === "marks") Object.assign(state.marks[state.chosen.i], { u: null, v: null });
-      Object.assign(state, { chosen: null, next: next_mark() });
+      const { list, i } = state.chosen ?? {};
+      if (list === "marks") state.marks[i].at = null;
+      else if (list) (list === "clicks" ? state.clicks : reading()).splice(i, 1);
+      state.chosen = null;
     });
   }
 
-  const writes = (target) => target.matches("input:not([type=checkbox], [type=radio], [type=range], [type=file]), textarea");
-  const typed = (text) => (text.trim() === "" ? NaN : Number(text.replace(/[\u2212\u2013]/, "-").replace(",", ".")));
+  const writes = (target) => target.matches("input:not([type]), [type=date], textarea");
 
   function press(event) {
-    if ((event.ctrlKey || event.metaKey) && event.key === "z" && !writes(event.target)) undo();
-    else if (!picture.naturalWidth || event.target.matches("input, select, textarea")) return;
+    const is_z = /^[a-z]$/i.test(event.key) ? event.key.toLowerCase() === "z" : event.code === "KeyZ";
+    if ((event.ctrlKey || event.metaKey) && is_z && !writes(event.target)) undo();
+    else if (!picture() || event.target.matches("input, select, textarea")) return;
     else if (event.key in ARROWS) {
       const far = chosen_place() ? 1 : 10; // with Shift; without anything chosen the cursor goes
       nudge(ARROWS[event.key].map((one) => one * (event.shiftKey ? far : 0.1)));
     } else if (event.target !== sheet) return;
-    else if (event.key === "Enter") put(state.cursor ??= [picture.naturalWidth / 2, picture.naturalHeight / 2]);
+    else if (event.key === "Enter") put(cursor());
     else if (event.key === "Escape") change(() => { state.chosen = null; });
     else if (["Delete", "Backspace"].includes(event.key)) remove_chosen();
     else return;
@@ -274,243 +344,265 @@
   // --- points ---
 
   function follow_line() {
-    if (state.clicks.length < 2) {
-      return refuse("Click the beginning and the end of the line first, and between where it bends.");
-    }
-    dark ??= trace.darkness(picture);
-    const { points, width, lost } = trace.follow(dark, state.clicks);
+    picture().colour ??= colours_of(picture());
+    const { points, width, length, left_out, lost, leg, move } = trace.follow(picture().colour, state.clicks);
     if (lost) {
-      const place = lost.map((one) => one.toFixed(0)).join(", ");
-      return refuse(`The line is lost at pixel ${place}. Set the clicks nearer to its middle, or more of them.`);
+      state.chosen = { list: "clicks", i: move - 1 };
+      draw();
+      const where = `at pixel ${lost.map(Math.round).join(", ")}, between clicks ${leg} and ${leg + 1}`;
+      return refuse(`The line is lost ${where}: move click ${move} nearer to the middle of the line; it is chosen. ` +
+        `Or click on click ${leg}, and add one behind it.`);
     }
     refuse("");
-    return take(points, width, "followed along the line");
+    take(points, width, "followed along the line");
+    get("task").textContent = `${points.length} points of a line of ${Math.round(length)} pixels; ` +
+      `${Math.round(left_out)} of these are left out: crossings, markers, gaps between dashes.`;
   }
 
   const take = (points, width, by) => change(() => {
-    state.readings[state.second ? 1 : 0] = points;
-    state.widths[state.second ? 1 : 0] = width;
-    Object.assign(state, { clicks: [], chosen: null, by });
+    state.readings[state.turn] = points;
+    Object.assign(state, { mode: "read", width, clicks: [], chosen: null, by });
   });
 
   function read_export(text) {
-    imported = exports_of_others.read(text);
-    const { columns = [], refused, said: words } = imported;
+    imported = exports_of_others.read(text, [panel().x, panel().y]);
+    const { columns = [], chosen, refused, said: words } = imported;
     get("others").open = true;
     get("export-said").textContent = refused ?? words;
     get("export-said").className = refused ? "bad" : "";
     get("export-columns").hidden = Boolean(refused);
     for (const [i, id] of ["export-x", "export-y"].entries()) {
-      get(id).replaceChildren(...columns.map(({ name }, k) => new Option(name, k, k === i, k === i)));
+      get(id).replaceChildren(...columns.map(({ name }, k) => new Option(name, k, k === chosen[i], k === chosen[i])));
     }
   }
 
   function take_export() {
     const [x, y] = ["export-x", "export-y"].map((id) => imported.columns[get(id).value]);
-    take(exports_of_others.points(x, y).map(fitted().to_pixels), 0, "exported from another program");
-    set_mode("read");
+    take(exports_of_others.points(x, y).map(map.to_pixels), 0, "exported from another program");
   }
 
   // --- files ---
-
-  const refuse = (text) => { get("refused").textContent = text; };
 
   async function open_file(file) {
     if (!file) return;
     if (/\.pdf$/i.test(file.name)) refuse("This page cannot draw a PDF. Paste a screenshot of the figure.");
     else if (file.type.startsWith("image/")) open_picture(file);
+    else if (/\.json$/i.test(file.name)) open_saved(await file.text());
     else read_export(get("export").value = await file.text());
   }
 
   function open_picture(blob) {
-    const [reader, trial] = [new FileReader(), new Image()]; // else what cannot be shown would replace the picture
-    trial.onload = () => { picture.src = trial.src; };
-    picture.onload = () => {
-      const { naturalWidth: width, naturalHeight: height, src: href } = picture;
-      sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
-      for (const [name, value] of Object.entries({ href, width, height })) get("copy").setAttribute(name, value);
-      document.body.classList.add("opened");
+    const reader = new FileReader();
+    reader.onload = () => show(reader.result, () => {
       // Marks and points are places in the picture before.
       const { panel: name, series, follow, off } = state;
-      state = { ...fresh(name), series, follow, off };
-      past.length = 0;
-      kept = {};
-      dark = null;
-      refuse("");
-      set_zoom();
-    };
-    trial.onerror = () => refuse("The browser cannot show this file. Paste a screenshot of the figure.");
-    reader.onload = () => { trial.src = reader.result; };
+      panels = {};
+      enter(name);
+      Object.assign(state, { series, follow, off });
+    });
     reader.readAsDataURL(blob);
   }
 
-  // At the smallest size the whole picture is seen; what is chosen, or lies in the middle, stays there.
-  function set_zoom() {
-    if (!picture.naturalWidth) return;
-    const { naturalWidth: width, naturalHeight: height } = picture;
-    const middle = chosen_place() ??
-      [stage.scrollLeft + stage.clientWidth / 2, stage.scrollTop + stage.clientHeight / 2].map((one) => one / zoom());
-    stage.style.height = sheet.style.height = ""; // and no bars to scroll with
-    sheet.style.width = "0";
-    const scale = get("zoom").value * Math.min(stage.clientWidth / width, (stage.clientHeight - 4) / height);
-    Object.assign(sheet.style, { width: `${scale * width}px`, height: `${scale * height}px` });
-    stage.style.height = `${Math.min(stage.clientHeight, scale * height) + 2}px`;
-    stage.scrollTo(middle[0] * scale - stage.clientWidth / 2, middle[1] * scale - stage.clientHeight / 2);
-    draw();
+  // Another picture, if the browser can show it, and what `action` changes with it.
+  async function show(address, action) {
+    const image = Object.assign(new Image(), { src: address });
+    try {
+      await image.decode();
+    } catch {
+      return refuse("The browser cannot show this file. Paste a screenshot of the figure.");
+    }
+    refuse("");
+    change(() => {
+      action();
+      shown = pictures.push(image) - 1;
+    });
+  }
+
+  // Everything, to go on another day.
+  function save_all() {
+    for (const one of Object.values(panels)) one.saved = JSON.stringify(one.readings);
+    const all = JSON.stringify({ ...whole(), picture: picture().src, texts: texts() });
+    files.save(`${state.panel}_reading.json`, new Blob([all], { type: "application/json" }));
+  }
+
+  function open_saved(text) {
+    let given = null;
+    try {
+      // Nothing of it may become a part of the page.
+      given = JSON.parse(text, (_, value) => (typeof value === "string" ? value.replace(/[<>"]/g, "") : value));
+    } catch { /* said below */ }
+    if (!DATA.panels[given?.name] || !given.panels?.[given.name] || !`${given.picture}`.startsWith("data:image/")) {
+      return refuse(exports_of_others.project(text) ?? "This file holds no readings that this page has saved.");
+    }
+    show(given.picture, () => {
+      restore(given);
+      set("value", given.texts);
+    });
   }
 
   function save() {
-    const said_of = { series: chosen_series(), ...Object.fromEntries(FIELDS.map((id) => [id, get(id).value])) };
-    const found = sigmas();
-    const problem = found.refused ?? (readings.missing(said_of) || readings.unfit(said_of.series, fitted(), found, state.readings[0]));
+    const said_of = { series: chosen_series(), ...texts() };
+    const found = judged();
+    const unfit = found.refused ? "" : readings.unfit(said_of.series, map, found);
+    const problem = found.refused ?? (readings.missing(said_of) || (unfit && worst()) || unfit);
     refuse(problem);
     get("saved").textContent = "";
     if (problem) return;
-    const how = `planarimpact ${DATA.version}, your_copy.html; picture of ${picture.naturalWidth} x ` +
-      `${picture.naturalHeight} px${state.by ? `; ${state.by}` : ""}`;
-    const text = readings.csv(said_of, fitted(), placed(), found, state.readings[0], how);
+    const { naturalWidth: width, naturalHeight: height } = picture();
+    const how = `planarimpact ${DATA.version}, your_copy.html; picture of ${width} x ${height} px`;
+    const by = state.by ? `; ${state.by}` : "";
+    const text = readings.csv(said_of, panel().range, map, placed(), found, how + by);
     const [source, name] = state.series.split("/");
     files.save(`${name}.csv`, new Blob([text], { type: "text/csv" }));
+    state.saved = JSON.stringify(state.readings);
     get("saved").textContent = `Put ${name}.csv into the folder data/${source}/ of the project, and run: ` +
-      `snakemake --cores 2 ${panel().figure}`;
+      `.venv/bin/snakemake --cores 2. The report shows ${name}.png (“Save picture”) if it lies beside it.`;
   }
 
   // Picture and curves as they lie, with the names of the curves, for one's own use.
   async function save_picture() {
-    const names = [...get("curves").querySelectorAll("label")].filter((label) => label.firstChild.checked);
+    const names = [...get("curves").querySelectorAll("label:has(:checked)")];
     const below = names.map((label) => [label.querySelector("path"), label.textContent.trim()]);
-    files.save(`${state.panel}_overlay.png`, await files.picture(sheet, [panel().title], below));
+    const name = state.readings[0].length ? state.series.split("/")[1] : `${state.panel}_overlay`;
+    files.save(`${name}.png`, await files.picture(sheet, [panel().title], below));
   }
 
   // --- controls ---
 
-  // What a click does: it sets marks, only looks, or reads points.
-  function set_mode(mode) {
-    const other = { marks: "points", read: "marks" }[mode];
-    if (state.chosen?.list === other) state.chosen = null;
-    Object.assign(state, { mode, next: next_mark() });
+  // What is chosen, or lies in the middle, stays there.
+  function set_zoom() {
+    const size = [stage.clientWidth, stage.clientHeight];
+    const corner = [stage.scrollLeft, stage.scrollTop];
+    const middle = chosen_place() ?? size.map((one, i) => (corner[i] + one / 2) / zoom());
+    sheet.style.setProperty("--zoom", get("zoom").value);
+    stage.scrollTo(...middle.map((one, i) => one * zoom() - size[i] / 2));
     draw();
   }
 
-  function show_panel() {
-    const { series, scale } = panel();
-    get("panel").value = state.panel;
-    get("series").replaceChildren(...series.map(({ id, name }) => new Option(name, id, false, id === state.series)));
-    get("no-series").hidden = series.length > 0;
-    get("with-scale").hidden = !scale;
-    draw();
+  // Another panel of the picture; marks of an x axis that both share stay.
+  function go_to(name) {
+    const { panel: before, marks } = state;
+    change(() => {
+      enter(name);
+      get("pointer").textContent = "";
+      if (panel().figure !== DATA.panels[before].figure) get("from").value = ""; // it says of which figure
+      if (!panel().box || panel().box !== DATA.panels[before].box) return;
+      for (const mark of state.marks.filter(({ y, at }) => y === 0 && !at)) {
+        mark.at = structuredClone(marks.find(({ x, y }) => y === 0 && x === mark.x)?.at ?? null);
+      }
+    });
   }
 
-  function choose_series(id) {
-    const { line } = panel().series.find((one) => one.id === id);
-    change(() => Object.assign(state, structuredClone(NOTHING_READ), { series: id, follow: line }));
+  // What the number in a field changes, if it is one.
+  function type_number(value, action) {
+    const number = numbers.read(value);
+    const why = numbers.is_unclear(value) ? "its comma may be decimal or stand between thousands" : "write it as -0.5";
+    refuse(Number.isNaN(number) ? `“${value}” is no number: ${why}. The old one is kept.` : "");
+    if (Number.isNaN(number)) draw();
+    else change(() => action(number));
   }
 
   const on = (id, event, action) => get(id).addEventListener(event, (happened) => action(happened.target, happened));
 
-  function listen() {
-    on("file", "change", ({ files: [file] }) => open_file(file));
-    on("panel", "change", ({ value }) => {
-      kept[state.panel] = state;
-      change(() => { state = kept[value] ?? fresh(value); });
-      show_panel();
-    });
-    on("series", "change", ({ value }) => { choose_series(value); set_mode("read"); });
-    on("sheet", "click", (_, event) => { sheet.focus({ preventScroll: true }); state.cursor = null; put(place_of(event)); });
-    on("sheet", "pointermove", (_, event) => {
-      if (event.pointerType !== "mouse") return;
-      tell(place_of(event));
-      draw_loupe(place_of(event));
-    });
-    on("sheet", "pointerleave", () => draw_loupe());
-    for (const name of ["marks", "look", "read"]) on(`mode-${name}`, "change", () => set_mode(name));
-    on("marks", "click", ({ className, dataset }) => {
-      const i = Number(dataset.mark);
-      if (className === "mark-pick") {
-        change(() => { Object.assign(state, { next: i, mode: "marks", chosen: { list: "marks", i } }); });
-        set_zoom();
-      }
-      if (className === "mark-drop") {
-        change(() => {
-          state.marks.splice(i, 1);
-          Object.assign(state, { next: next_mark(), chosen: null });
-        });
-        get("mark-add").focus();
-      }
-    });
-    on("marks", "change", ({ className, value, dataset }) => {
-      const number = typed(value);
-      refuse(Number.isFinite(number) ? "" : `“${value}” is no number such as -0.5: the old one is kept.`);
-      if (Number.isFinite(number)) change(() => { state.marks[dataset.mark][className.at(-1)] = number; });
-      draw();
-    });
-    on("mark-add", "click", () => change(() => {
-      state.next = state.marks.push({ x: null, y: null, u: null, v: null }) - 1;
+  const BUTTONS = {
+    undo, save, picture: save_picture, trace: follow_line, "export-take": take_export, "save-all": save_all,
+    "mark-add": () => change(() => {
+      state.picked = state.marks.push({ x: null, y: null, at: null }) - 1;
       state.mode = "marks";
-    }));
-    on("curves", "change", ({ checked, dataset }) => change(() => {
-      const i = Number(dataset.curve);
-      state.off = checked ? state.off.filter((one) => one !== i) : [...state.off, i];
-    }));
-    on("scale", "input", draw);
-    on("follow", "change", ({ checked }) => { change(() => { state.follow = checked; }); set_mode("read"); });
-    on("opacity", "input", ({ value }) => sheet.style.setProperty("--opacity", value));
-    on("zoom", "input", set_zoom);
-    on("second", "click", () => {
-      change(() => Object.assign(state, { second: !state.second, clicks: [], chosen: null }));
-      set_mode("read");
-    });
-    on("trace", "click", follow_line);
-    on("clear", "click", () => change(() => {
-      const { second, readings: [first], widths: [width] } = state;
-      Object.assign(state, structuredClone(NOTHING_READ), second ? { second, readings: [first, []], widths: [width, 0] } : {});
-    }));
-    on("undo", "click", undo);
-    for (const arrow of Object.keys(ARROWS)) on(arrow, "click", () => nudge(ARROWS[arrow].map((one) => 0.1 * one)));
-    on("export", "input", ({ value }) => read_export(value));
-    on("exchange", "click", () => {
+    }),
+    second: () => change(() => Object.assign(state, { mode: "read", turn: 1 - state.turn, chosen: null })),
+    clear: () => change(() => {
+      const { turn, readings: [first] } = state;
+      Object.assign(state, nothing_read(), turn ? { turn, readings: [first, []] } : {});
+    }),
+    exchange: () => {
       const [x, y] = ["export-x", "export-y"].map(get);
       [x.value, y.value] = [y.value, x.value];
-    });
-    on("export-take", "click", take_export);
-    on("save", "click", save);
-    on("picture", "click", save_picture);
-    for (const event of ["pointerdown", "pointerup", "pointerleave", "blur"]) {
-      on("hold", event, () => sheet.classList.toggle("print-only", event === "pointerdown"));
-    }
-    for (const event of ["keydown", "keyup"]) {
-      document.addEventListener(event, ({ key, target }) => {
-        const held = key.toLowerCase() === "h" || (target.id === "hold" && [" ", "Enter"].includes(key));
-        if (held && !writes(target)) sheet.classList.toggle("print-only", event === "keydown");
-      });
-    }
-    window.addEventListener("blur", () => sheet.classList.remove("print-only"));
-    document.addEventListener("keydown", press);
-    document.addEventListener("dragover", (event) => event.preventDefault());
-    document.addEventListener("drop", (event) => { event.preventDefault(); open_file(event.dataTransfer.files[0]); });
-    document.addEventListener("paste", ({ clipboardData, target }) => {
-      if (writes(target)) return;
-      const image = [...clipboardData.items].find(({ type }) => type.startsWith("image/"));
-      if (image) open_picture(image.getAsFile());
-      else read_export(get("export").value = clipboardData.getData("text"));
-    });
-    window.addEventListener("resize", set_zoom);
-  }
+    },
+    "close-loupe": () => get("magnifier").click(),
+  };
 
-  // Distances of this page against those of the package.
-  function check() {
-    const wrong = Object.values(DATA.panels).flatMap((one) => one.check.filter(({ curve, point, near, above }) => {
-      const own = one.curves[curve];
-      return !(Math.abs(distance(own, point, spans(one)) - near) < 1e-6 &&
-        Math.abs(height(own, point) - above) < 1e-6 * spans(one)[1]);
-    }));
-    if (wrong.length) refuse(`Do not trust this page: ${wrong.length} of its distances differ from those of the package.`);
+  for (const [id, action] of Object.entries(BUTTONS)) on(id, "click", action);
+  for (const arrow of Object.keys(ARROWS)) on(arrow, "click", () => nudge(ARROWS[arrow].map((one) => 0.1 * one)));
+  for (const mode of ["marks", "look", "read"]) {
+    on(`mode-${mode}`, "change", () => change(() => Object.assign(state, { mode, picked: null, chosen: null })));
   }
+  on("file", "change", ({ files: [file] }) => open_file(file));
+  on("panel", "change", ({ value }) => go_to(value));
+  on("series", "change", ({ value }) => change(() => {
+    const { id, line } = panel().series.find((one) => one.id === value);
+    Object.assign(state, nothing_read(), { mode: "read", series: id, follow: line });
+  }));
+  on("sheet", "click", (_, event) => {
+    sheet.focus({ preventScroll: true });
+    state.cursor = null;
+    put(place_of(event));
+  });
+  on("sheet", "pointermove", (_, event) => {
+    if (event.pointerType !== "mouse") return;
+    tell(place_of(event));
+    draw_loupe(place_of(event));
+  });
+  on("sheet", "pointerleave", () => draw_loupe());
+  on("marks", "click", ({ className, dataset }) => {
+    const i = Number(dataset.mark);
+    if (className === "mark-pick") {
+      change(() => Object.assign(state, { picked: i, mode: "marks", chosen: { list: "marks", i } }));
+      set_zoom();
+    }
+    if (className === "mark-drop") {
+      change(() => {
+        state.marks.splice(i, 1);
+        Object.assign(state, { picked: null, chosen: null });
+      });
+      get("mark-add").focus();
+    }
+  });
+  on("marks", "change", ({ className, value, dataset }) =>
+    type_number(value, (number) => { state.marks[dataset.mark][className.at(-1)] = number; }));
+  on("width", "change", ({ value }) => type_number(value, (number) => { state.width = number; }));
+  on("curves", "change", ({ checked, dataset }) => change(() => {
+    const i = Number(dataset.curve);
+    state.off = checked ? state.off.filter((one) => one !== i) : [...state.off, i];
+  }));
+  on("scale", "input", draw);
+  on("flat", "change", ({ checked }) => change(() => { state.flat = checked; }));
+  on("follow", "change", ({ checked }) => change(() => Object.assign(state, { mode: "read", follow: checked })));
+  on("magnifier", "change", () => draw_loupe());
+  on("opacity", "input", ({ value }) => sheet.style.setProperty("--opacity", value));
+  on("zoom", "input", set_zoom);
+  on("export", "input", ({ value }) => read_export(value));
+  for (const type of ["pointerdown", "pointerup", "keydown", "keyup", "blur"]) {
+    window.addEventListener(type, ({ key = " ", target }) => {
+      const held = key.toLowerCase() === "h" ? !writes(target) : target.id === "hold" && [" ", "Enter"].includes(key);
+      sheet.classList.toggle("print-only", held && type.endsWith("down"));
+    });
+  }
+  document.addEventListener("keydown", press);
+  document.addEventListener("dragover", (event) => event.preventDefault());
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    open_file(event.dataTransfer.files[0]);
+  });
+  document.addEventListener("paste", ({ clipboardData, target }) => {
+    if (writes(target)) return;
+    // Cells of a table come as a picture, too.
+    const image = [...clipboardData.items].find(({ type }) => type.startsWith("image/"));
+    const text = clipboardData.getData("text");
+    if (image && exports_of_others.read(text, [panel().x, panel().y]).refused) open_picture(image.getAsFile());
+    else read_export(get("export").value = text);
+  });
+  window.addEventListener("beforeunload", (event) => {
+    const is_new = ({ readings: own, saved }) => own[0].length && JSON.stringify(own) !== saved;
+    if (Object.values(panels).some(is_new)) event.preventDefault();
+  });
+  window.addEventListener("resize", () => {
+    draw_signs();
+    draw_loupe();
+  });
 
   const asked = location.hash.slice(1); // a figure, of which the first panel is shown
-  state = fresh(Object.keys(DATA.panels).find((name) => asked && name.startsWith(asked)) ?? "fig5");
+  enter(Object.keys(DATA.panels).find((name) => asked && name.startsWith(asked)) ?? "fig5");
   get("when").value = new Date().toISOString().slice(0, 10);
-  listen();
-  show_panel();
-  check();
+  draw();
 })();

@@ -1,99 +1,105 @@
 "use strict";
 
-// Follow a dark line in a picture, from one click to the next, and give points in the middle of it.
+// Follow a line in a picture through clicks, and give points in the middle of it. Places are in pixels.
 const trace = (() => {
-  const STEP = 2; // pixels
-  const MOST_GAP = 14; // steps without ink, as between dashes
-  const COUNT = 60; // points, at most
+  const COUNT = 15; // points at most: as many as the judge may take as independent
+  const FAINTEST = 20; // of 255: the least difference in colour between a line and its paper
+  const [INKED, EDGE] = [0.4, 0.2]; // shares of this difference: what is ink, and where a line ends
 
-  // How dark each pixel is, 0 to 1, with the brightness of the paper as 0.
-  function darkness(picture) {
-    const canvas = document.createElement("canvas");
-    const [width, height] = [picture.naturalWidth, picture.naturalHeight];
-    Object.assign(canvas, { width, height });
-    const pen = canvas.getContext("2d", { willReadFrequently: true });
-    pen.drawImage(picture, 0, 0);
-    const { data } = pen.getImageData(0, 0, width, height);
-    const grey = new Float32Array(width * height);
-    for (let i = 0; i < grey.length; i++) grey[i] = (data[4 * i] + data[4 * i + 1] + data[4 * i + 2]) / 765;
-    const sorted = grey.filter((_, i) => i % 97 === 0).sort();
-    const [ink, paper] = [sorted[0], sorted[Math.floor(0.8 * sorted.length)]];
-    const dark = grey.map((one) => Math.min(1, Math.max(0, (paper - one) / (paper - ink || 1))));
-    // Between the middles of pixels, which lie at halves.
-    return ([u, v]) => {
-      const [x, y] = [Math.min(width - 1.001, Math.max(0, u - 0.5)), Math.min(height - 1.001, Math.max(0, v - 0.5))];
-      const [i, k] = [Math.floor(x), Math.floor(y)];
-      const [p, q] = [x - i, y - k];
-      const at = (a, b) => dark[(k + b) * width + i + a];
-      return (1 - q) * ((1 - p) * at(0, 0) + p * at(1, 0)) + q * ((1 - p) * at(0, 1) + p * at(1, 1));
-    };
-  }
+  const median = (list) => list.toSorted((a, b) => a - b)[Math.floor(list.length / 2)];
+  const distance = ([a, b], [c, d]) => Math.hypot(c - a, d - b);
+  const direction = (from, to) => [0, 1].map((i) => (to[i] - from[i]) / (distance(from, to) || 1));
+  const smallest = (list, size) => list.reduce((best, one) => (size(one) < size(best) ? one : best), list[0]);
 
-  // The middle of the ink across a direction, as a distance from a point, and its width; null without ink.
-  function across(dark, [u, v], [du, dv], reach) {
-    const profile = [];
-    for (let s = -reach; s <= reach; s += 0.5) profile.push([s, dark([u - s * dv, v + s * du])]);
-    const inked = profile.map(([s, ink], i) => (ink > 0.4 ? i : -1)).filter((i) => i >= 0);
-    if (!inked.length) return null;
-    let first = inked.reduce((best, i) => (Math.abs(profile[i][0]) < Math.abs(profile[best][0]) ? i : best));
+  // The ink nearest to a place, across a direction: how far its middle is off, its width, its level (by how much its
+  // colour differs from that of the paper), and whether it is alone. Null without ink of nearly this level.
+  function across(colour, [u, v], [du, dv], half, level) {
+    const offs = Array.from({ length: 4 * half + 1 }, (_, i) => i / 2 - half);
+    const seen = offs.map((off) => colour([u - off * dv, v + off * du]));
+    const paper = [0, 1, 2].map((n) => median(seen.map((one) => one[n]))); // most of what is seen
+    const ink = seen.map((one) => Math.max(...paper.map((value, n) => Math.abs(one[n] - value))));
+    const inked = [...ink.keys()].filter((i) => ink[i] > INKED * level);
+    let first = smallest(inked, (i) => Math.abs(offs[i]));
+    if (!(Math.abs(offs[first]) < 0.8 * half)) return null;
     let last = first;
-    while (first > 0 && profile[first - 1][1] > 0.2) first--;
-    while (last < profile.length - 1 && profile[last + 1][1] > 0.2) last++;
-    const part = profile.slice(first, last + 1);
-    const ink = part.reduce((sum, [, one]) => sum + one, 0);
-    return { off: part.reduce((sum, [s, one]) => sum + s * one, 0) / ink, width: ink / 2 };
+    while (ink[first - 1] > EDGE * level) first--;
+    while (ink[last + 1] > EDGE * level) last++;
+    const part = ink.slice(first, last + 1);
+    const [sum, most] = [part.reduce((a, b) => a + b), Math.max(...part)];
+    const off = part.reduce((all, one, i) => all + one * offs[first + i], 0) / sum;
+    return { off, width: sum / most / 2, level: most, alone: inked.every((i) => i >= first && i <= last) };
   }
 
-  const unit = ([a, b]) => [a / (Math.hypot(a, b) || 1), b / (Math.hypot(a, b) || 1)];
+  // The line at a click, where its width and level are not known yet.
+  const at_click = (colour, click, way) => [12, 24, 48].map((half) => {
+    const some = across(colour, click, way, half, FAINTEST / INKED);
+    return some && across(colour, click, way, half, some.level);
+  }).find((found, i) => found?.width < 7 * 2 ** i && Math.abs(found.off) < 6 * 2 ** i);
 
-  // Points along a line through all clicks, in pixels, and its width. {lost} says where it ended too early.
-  function follow(dark, clicks, reach = 6) {
-    const [points, widths] = [[], []];
-    for (let i = 0; i + 1 < clicks.length; i++) {
-      let [here, goal, gap] = [clicks[i], clicks[i + 1], 0];
-      let way = unit([goal[0] - here[0], goal[1] - here[1]]);
-      let left = 4 * Math.hypot(goal[0] - here[0], goal[1] - here[1]) / STEP;
-      while (left-- > 0) {
-        const found = across(dark, here, way, reach);
-        // Where lines cross the ink is wide, and its middle is not that of the line.
-        const crossed = found && widths.length > 4 && found.width > 1.6 * median(widths);
-        if (found && !crossed) {
-          here = [here[0] - found.off * way[1], here[1] + found.off * way[0]];
-          if (points.length) {
-            const [du, dv] = unit([here[0] - points.at(-1)[0], here[1] - points.at(-1)[1]]);
-            way = unit([0.75 * way[0] + 0.25 * du, 0.75 * way[1] + 0.25 * dv]);
-          }
-          points.push(here);
-          widths.push(found.width);
-        }
-        gap = found ? 0 : gap + 1;
-        if (gap > MOST_GAP) return { points, lost: here };
-        const rest = [goal[0] - here[0], goal[1] - here[1]];
-        const passed = rest[0] * way[0] + rest[1] * way[1] < 0;
-        if (Math.hypot(...rest) < 1.5 * STEP || (Math.hypot(...rest) < 2 * reach && passed)) break;
-        here = [here[0] + STEP * way[0], here[1] + STEP * way[1]];
+  // {points, width, length, left_out} of the line through all clicks: its length, and how much of it has no points; or
+  // {lost, leg, move}: where it was lost, behind which click, and which one to move, counted from 1.
+  function follow(colour, clicks) {
+    const ways = clicks.map((_, i) => direction(clicks[Math.max(0, i - 1)], clicks[Math.max(1, i)]));
+    const known = clicks.map((click, i) => at_click(colour, click, ways[i])).filter(Boolean);
+    if (!known.length) return { lost: clicks[0], leg: 1, move: 1 };
+    const usual = median(known.map((one) => one.width));
+    let level = median(known.map((one) => one.level));
+    const [step, half] = [Math.max(1, usual / 3), Math.ceil(Math.max(12, 3 * usual))];
+    const jump = 0.25 + 0.75 * usual; // sideways in a step; the arcs of a marker are farther away
+    const gap = Math.max(28, 12 * usual); // as between dashes, or in a marker
+    // Where lines cross the ink is wide, at the end of a dash it is cut: its middle is not that of the line.
+    const is_line = (found) => found?.width > 0.6 * usual && found.width < 1.3 * usual;
+    const points = [];
+    let [here, way, missed, run, length, left_out, skipped] = [clicks[0], ways[0], 0, 0, 0, 0, 0];
+    for (const [i, goal] of clicks.slice(1).entries()) {
+      const before = points.length;
+      const ahead = () => way[0] * (goal[0] - here[0]) + way[1] * (goal[1] - here[1]);
+      // A line that has a corner at a click does not go on as before, but from there towards the next one.
+      const next = here.map((one, n) => one + 2 * usual * way[n]);
+      const turned = ahead() < 0.7 * distance(here, goal);
+      if (turned && !is_line(across(colour, next, way, half, level))) {
+        [here, way, run] = [clicks[i], direction(clicks[i], goal), 0];
       }
-      // Another line leads past the click.
-      if (left <= 0 || Math.hypot(goal[0] - here[0], goal[1] - here[1]) > reach) return { points, lost: here };
+      for (let left = 3 * distance(here, goal); ahead() > 0 || distance(here, goal) > half / 2; left -= step) {
+        const found = across(colour, here, way, half, level);
+        // Behind a gap the line may be farther off, if no other ink is near.
+        const most = !points.length ? half / 2 : jump + (found?.alone ? 0.5 * missed : 0);
+        const good = is_line(found) && Math.abs(found.off) < most;
+        const past = ahead() <= 0 && distance(here, goal) < 1.5 * half;
+        if (past || left < 0 || (!good && missed > gap)) {
+          // Where it runs into another line it is left out up to the next click, unless too much would be.
+          const goes_on = before && ++skipped <= clicks.length / 3 && i + 2 < clicks.length;
+          if (!goes_on || !is_line(at_click(colour, goal, ways[i + 1]))) {
+            return { lost: here, leg: i + 1, move: points.length ? i + 2 : 1 };
+          }
+          points.length = before;
+          length = points.at(-1).length;
+          [way, missed, run] = [ways[i + 1], step, 0];
+          break;
+        }
+        if (good) {
+          here = [here[0] - found.off * way[1], here[1] + found.off * way[0]];
+          const part = points.length ? distance(points.at(-1).here, here) : 0;
+          length += part;
+          left_out += missed ? part : 0;
+          points.push({ here, length, width: found.width });
+          level += 0.1 * (found.level - level); // the light may be uneven
+          // The way of the last points behind a gap or a corner, once these are enough.
+          if (run > 4) way = direction(points.at(-Math.min(run, 9)).here, here);
+        }
+        [missed, run] = good ? [0, run + 1] : [missed + step, 0];
+        here = [here[0] + step * way[0], here[1] + step * way[1]];
+      }
+      if (missed) here = goal; // a click is nearer to the line than a guess
     }
-    if (!points.length) return { points, lost: clicks[0] };
-    const every = Math.max(1, Math.ceil(points.length / COUNT));
-    return { points: points.filter((_, i) => i % every === 0), width: median(widths) };
+    const width = median(points.map((one) => one.width));
+    // Even places along the line. Beside a gap the middle is less sure, and the width is not that of the line.
+    const kept = Array.from({ length: COUNT }, (_, i) => smallest(
+      points.filter((one) => Math.abs(one.length / length - i / (COUNT - 1)) < 0.1 / COUNT),
+      (one) => Math.abs(one.width - width))).filter(Boolean);
+    if (kept.length < 2) return { lost: here, leg: 1, move: 1 };
+    return { points: kept.map((one) => one.here), width, length, left_out };
   }
 
-  const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
-
-  // Distance of a point from a chain of points, in pixels.
-  function beside(point, chain) {
-    let least = Infinity;
-    for (let i = 0; i + 1 < chain.length; i++) {
-      const [[a, b], [c, d]] = [chain[i], chain[i + 1]];
-      const squared = (c - a) ** 2 + (d - b) ** 2 || 1;
-      const share = Math.min(1, Math.max(0, ((point[0] - a) * (c - a) + (point[1] - b) * (d - b)) / squared));
-      least = Math.min(least, Math.hypot(point[0] - a - share * (c - a), point[1] - b - share * (d - b)));
-    }
-    return least;
-  }
-
-  return { darkness, follow, beside };
+  return { follow };
 })();

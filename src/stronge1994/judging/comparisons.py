@@ -31,6 +31,7 @@ class Metric(StrEnum):
     DISTANCE = "distance"
     VERTICES = "vertices"
     LANDMARK = "landmark"
+    RATIO = "ratio"
     SMALL = "small"
     RANGE = "range"
     CONTRACTION = "contraction"
@@ -89,8 +90,8 @@ class Comparison:
     `points`, in the `regime`. `says` is what the reference says, for readers. A comparison, like a
     reference, may be for some `settings` of the figure alone. A known difference has `bounds` about
     what was found, of its `rms`, `max` or `difference` in the unit of the axis. They guard against
-    changes, and say nothing on what is right. Comparisons with the same `scale` share one that is
-    fitted, see `judging.scales`.
+    changes, and say nothing on what is right. A `scale` is fitted, see
+    `judging.scales`.
     """
 
     name: str
@@ -165,6 +166,10 @@ class Comparison:
             and not (isinstance(there[key], list) and value in there[key])
         )
 
+    def allowed(self, which: str) -> float:
+        """How far the model may be off along an axis, x or y."""
+        return float(getattr(self.allowance, which, 0.0))
+
     def selected_points(self, series: Series) -> tuple[Table, list[Array]]:
         """The points of its reference that are compared, and for each y axis their sigmas.
 
@@ -184,7 +189,7 @@ class Comparison:
         sigmas = axis.sigmas(points)
         if not np.all(sigmas):
             raise ValueError("a point that is compared has an uncertainty of 0")
-        return np.hypot(sigmas, getattr(self.allowance, which, 0.0))
+        return np.hypot(sigmas, self.allowed(which))
 
     def _window(self, series: Series) -> tuple[float, float]:
         """Where its regime begins and ends on the axis, by the parameters of the source."""

@@ -10,7 +10,6 @@ from planarimpact.common.arrays import Array
 from stronge1994 import tables
 from stronge1994.judging import distances, landmarks
 from stronge1994.judging.comparisons import Comparison, Metric
-from stronge1994.judging.distances import Distances
 from stronge1994.names import PRINTED
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table
@@ -25,9 +24,12 @@ class Measured(NamedTuple):
 
     `quantity` is the column of their positions `at`. `sigmas` and `plain` are `Distances`; of each
     one `scales` has the sigma in the unit of its axis, `columns` its column, and `curves` its
-    curve, if that is not the only one. `shifts` has a row for each uncertain parameter: the change
-    of all `sigmas` if it is off by one sigma. `fitted` is how many parameters were fitted to these
-    points: a part of one that others share, see `judging.scales`, of which `note` tells.
+    curve, if that is not the only one. `shifts` has a row for each error that the points share: the
+    change of all `sigmas` if it is of one sigma. `of_sigma` is the number of values from which the
+    sigmas were estimated, None if they are known.
+
+    `places` and `directions` are those of `distances.FromCurve`. `factor` is that of the curve if
+    it was fitted, see `judging.scales`; `note` tells of the fit.
     """
 
     quantity: str
@@ -38,8 +40,26 @@ class Measured(NamedTuple):
     columns: list[str]
     curves: Sequence[str] = ()
     shifts: Array = np.zeros((0, 0))
-    fitted: float = 0
+    of_sigma: int | None = None
+    places: Array = np.zeros((0, 2))
+    directions: Array = np.zeros((0, 2))
+    factor: float | None = None
     note: str = ""
+
+    @property
+    def wider(self) -> Array:
+        """Change of all `sigmas` for a curve that is too long along x by its own length."""
+        return self.places[:, 0] * self.directions[:, 0]
+
+    @property
+    def larger(self) -> Array:
+        """Change of all `sigmas` for a curve that is too large along y by its own size."""
+        return self.places[:, 1] * self.directions[:, 1]
+
+    @property
+    def free(self) -> Array | None:
+        """The error that the fit of a factor takes away, see `goodness.chi_squared`."""
+        return None if self.factor is None else self.larger
 
     @property
     def worst(self) -> int:
@@ -94,7 +114,10 @@ def _from_points(comparison: Comparison, series: Series, curves: Table) -> Measu
         shift = (up - down) / 2
         # An error of a parameter moves all points together, unless each point has its own.
         shifts += list(np.diag(shift)) if own else [shift]
-    return found._replace(shifts=np.reshape(shifts, (len(shifts), len(found.at))))
+    if series.calibration:
+        shifts += list(series.calibration.shifts(found.places, found.directions))
+    every = np.reshape(shifts, (len(shifts), len(found.at)))
+    return found._replace(shifts=every, of_sigma=series.sigma_values)
 
 
 def _distances(
@@ -119,7 +142,7 @@ def _distances(
     )
     rows_of, find = _rows_by_labels(chosen, labels), _FROM_POINTS[comparison.metric]
     curve_of = chosen[["curve"]]  # a row of all columns takes longer to pick
-    parts: list[tuple[Array, *Distances, Array]] = []
+    parts: list[tuple[Array, ...]] = []
     columns: list[str] = []
     names: list[str] = []
     for values, at in _rows_by_labels(points, labels).items():
@@ -134,11 +157,13 @@ def _distances(
                 raise ValueError(f"{of} has no column {y!a}")
             if there.any():
                 some, both = places[at][there], sigma[at][there].T
-                parts.append((some[:, 0], *find(some.T, line.T, tuple(both)), both[1]))
+                parts.append((some[:, 0], both[1], *find(some.T, line.T, tuple(both))))
                 columns += [y] * len(some)
                 names += [of] * len(some)
-    at_x, in_sigmas, plain, scales = map(np.concatenate, zip(*parts, strict=True))
-    return Measured(series.x.name, at_x, in_sigmas, plain, scales, columns, names)
+    at_x, scales, *found = map(np.concatenate, zip(*parts, strict=True))
+    near = distances.FromCurve(*found)
+    own = Measured(series.x.name, at_x, near.sigmas, near.plain, scales, columns, names)
+    return own._replace(places=near.places, directions=near.directions)
 
 
 def _rows_by_labels(table: Table, labels: list[str]) -> dict[tuple[Any, ...], list[int]]:

@@ -4,8 +4,7 @@ A table of curves that cannot be read is an error. What cannot be compared in it
 reason in `note`.
 """
 
-import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -15,9 +14,9 @@ import pandas as pd
 from stronge1994 import tables
 from stronge1994.formulas import plain
 from stronge1994.judging import scales
-from stronge1994.judging.comparisons import Comparison
+from stronge1994.judging.comparisons import Comparison, Metric
 from stronge1994.judging.metrics import Measured, as_printed, measure, rms_and_max
-from stronge1994.judging.verdicts import judge, judge_print
+from stronge1994.judging.verdicts import error_in_words, judge, judge_print
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table, with_unit
 from stronge1994.verdict_table import COLUMNS, Verdict, Why
@@ -45,16 +44,16 @@ def compare(
     """
     curves = read(path)
     every = [Comparison.of(title, entry, references) for title, entry in comparisons.items()]
-
-    @functools.cache  # one fit for all that share a scale
-    def of_scale(scale: str) -> dict[str, Measured]:
-        return scales.measure(scales.sharing(scale, every, settings), curves)
-
-    def measured(one: Comparison) -> Measured:
-        return of_scale(one.scale)[one.name] if one.scale else measure(one, curves)
-
     common = dict.fromkeys(COLUMNS, "") | {"figure": name}
-    return [common | _row(one, curves, significance, settings, measured) for one in every]
+    return [common | _row(one, _parts(one, every), curves, significance, settings) for one in every]
+
+
+def _parts(comparison: Comparison, every: Sequence[Comparison]) -> list[Comparison]:
+    """What a comparison measures: itself; or the two of a ratio, that of its reference first."""
+    if comparison.metric != Metric.RATIO:
+        return [comparison]
+    alike = [one for one in every if (one.scale, one.metric) == (comparison.scale, Metric.DISTANCE)]
+    return sorted(alike, key=lambda one: one.reference != comparison.reference)
 
 
 def read(path: str) -> Table:
@@ -68,10 +67,10 @@ def read(path: str) -> Table:
 
 def _row(
     comparison: Comparison,
+    parts: Sequence[Comparison],
     curves: Table,
     significance: float,
     settings: Mapping[str, Any],
-    measured_by: Callable[[Comparison], Measured],
 ) -> VerdictRow:
     """Cells of one comparison: what was measured, and the verdict on it."""
     reference, known = comparison.reference, comparison.differs
@@ -85,15 +84,16 @@ def _row(
         "reason": plain(comparison.reason),
     }
     none = {"verdict": Verdict.NOT_COMPARED}
-    if isinstance(reference, Series) and reference.kind == "awaited":
-        return cells | none | {"why": Why.AWAITED, "note": reference.figure}
-    if others := comparison.other_settings(settings):
+    for series in [one.reference for one in parts]:
+        if isinstance(series, Series) and series.kind == "awaited":
+            return cells | none | {"why": Why.AWAITED, "note": series.figure}
+    if others := "; ".join(filter(None, (one.other_settings(settings) for one in parts))):
         what = "reference" if reference else "law"
         return cells | none | {"why": Why.SETTINGS, "note": f"the {what} is for {others}"}
     if known:
         cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
-        measured = measured_by(comparison)
+        measured = _measured(comparison, parts, curves)
         verdict, numbers = _judged(comparison, measured, significance)
         if comparison.or_printed:
             printed = measure(comparison, as_printed(comparison, curves))
@@ -119,6 +119,14 @@ def _row(
     return cells | {"residuals": pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))}
 
 
+def _measured(comparison: Comparison, parts: Sequence[Comparison], curves: Table) -> Measured:
+    if comparison.metric == Metric.RATIO:
+        if len(parts) != 2:
+            raise ValueError(f"a ratio needs two comparisons with its scale, here {len(parts)}")
+        return scales.ratio(parts[0], parts[1], curves)
+    return (scales.measure if comparison.scale else measure)(comparison, curves)
+
+
 def _place(measured: Measured) -> str:
     """Where a distance is largest."""
     worst = measured.worst
@@ -131,7 +139,7 @@ def _judged(
     comparison: Comparison, measured: Measured, significance: float
 ) -> tuple[Verdict, VerdictRow]:
     """The verdict, and the cells of numbers; sizes are in the unit of the axis."""
-    verdict, chi2 = judge(comparison, measured, significance)
+    verdict, chi2, error = judge(comparison, measured, significance)
     quantity, _, unit = measured.columns[measured.worst].rstrip("]").partition(" [")
     sizes, (rms, largest) = measured.sizes, rms_and_max(measured.sigmas)
     numbers = {"rms": sizes["rms"], "max": sizes["max"], "rms [sigma]": rms, "max [sigma]": largest}
@@ -145,12 +153,15 @@ def _judged(
     cells |= {"bounds": ", ".join(bounds)}
     if isinstance(comparison.reference, Fact):
         cells |= {"found": f"{measured.at[0]:.4g}", "stated": comparison.reference.stated}
+    if comparison.metric == Metric.RATIO:
+        cells["found"] = f"ratio {measured.at[0]:.3g}"
     if comparison.range:
         values = measured.plain + sum(comparison.range) / 2
         cells["found"] = f"{values.min():.3g} to {values.max():.3g}"
     if chi2:
-        cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": f"{round(chi2.degrees, 1):g}"}
+        cells |= {"chi^2": f"{chi2.value:.3g}", "degrees of freedom": chi2.degrees}
         cells |= {"degrees of sigma": chi2.of_sigma or "", "p": f"{chi2.p:.2g}"}
+        cells |= {"would fail": error_in_words(comparison, measured, error)}
     return verdict, cells
 
 

@@ -1,48 +1,49 @@
 """From distances to a verdict: chi-squared for published points, a tolerance for all others.
 
-Published points that agree with a curve are evidence only if they could have disagreed. So the
-verdict is computed again with all of them moved by `VISIBLE_SHIFT` sigmas. A fitted scale stays as
-it was for them: it would follow any shift that looks like another scale, and the question is
-whether the test notices differences of that size in the shape, which no scale explains.
+Published points that agree with a curve are evidence only if they could have disagreed. So each
+comparison says which error of the curve it would have noticed, see `goodness.smallest_error`: of
+its size or, where a factor was fitted that explains any size, of its length along x.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
-from stronge1994.goodness import ChiSquared, chi_squared
-from stronge1994.judging.comparisons import Comparison
+from stronge1994.goodness import ChiSquared, chi_squared, smallest_error
+from stronge1994.judging.comparisons import Comparison, Metric
 from stronge1994.judging.metrics import Measured
 from stronge1994.reference_data import Series
 from stronge1994.verdict_table import Group, Verdict
 
-# If all points lie this many sigmas on one side of a curve, a reader of the picture sees that the
-# curve is wrong. A comparison that does not notice it says less than the picture.
-VISIBLE_SHIFT = 2.0
-# Values from which sigmas are as good as known: the F test has the p of chi-squared.
-ALL_KNOWN = 1000
+# A p up to this many times the significance is no difference, and no agreement either.
+DOUBT = 10
+# A comparison that would not notice a curve that is larger by so much says nothing.
+LARGEST_ERROR = 0.1
 
 
-def judge(
-    comparison: Comparison, measured: Measured, significance: float
-) -> tuple[Verdict, ChiSquared | None]:
-    """Verdict on measured distances, and chi-squared of published points, None of all others.
+class Judged(NamedTuple):
+    """A verdict; of published points also chi-squared, and the smallest error that differs."""
 
-    Published points agree if p is above `significance`. A known difference fails if there is no
-    difference any more, and if it has left its bounds.
+    verdict: Verdict
+    chi2: ChiSquared | None = None
+    error: float | None = None
+
+
+def judge(comparison: Comparison, measured: Measured, significance: float) -> Judged:
+    """Verdict on measured distances.
+
+    Published points differ if p is not above `significance`. A known difference fails if there is
+    no difference any more, and if it has left its bounds.
     """
-    good, chi2 = _is_good(comparison, measured, significance)
+    judged = _beside_the_curve(comparison, measured, significance)
     if comparison.differs:
         sizes, bounds = measured.sizes, comparison.bounds.items()
         kept = all(low <= sizes[key] <= high for key, (low, high) in bounds)
-        return (Verdict.DIFFERS if kept and not good else Verdict.FAILS), chi2
-    if not good:
-        return Verdict.FAILS, chi2
-    if comparison.group == Group.SOLVER:
-        return Verdict.PASSED, chi2
-    for off in (VISIBLE_SHIFT, -VISIBLE_SHIFT) if chi2 else ():
-        moved = measured._replace(sigmas=measured.sigmas + off)
-        if _is_good(comparison, moved, significance)[0]:
-            return Verdict.CANNOT_TELL, chi2
-    return Verdict.AGREES, chi2
+        differs = kept and judged.verdict == Verdict.FAILS
+        return judged._replace(verdict=Verdict.DIFFERS if differs else Verdict.FAILS)
+    if judged.verdict == Verdict.AGREES and comparison.group == Group.SOLVER:
+        return judged._replace(verdict=Verdict.PASSED)
+    return judged
 
 
 def judge_print(
@@ -54,7 +55,7 @@ def judge_print(
     """
     other = comparison.or_printed
     assert other is not None
-    follows, _ = _is_good(comparison, of_printed, significance)
+    follows = _beside_the_curve(comparison, of_printed, significance).verdict != Verdict.FAILS
     if verdict != Verdict.FAILS:
         alike = f"it cannot tell the model from {other.equations} as printed"
         return verdict, alike if follows else f"the print follows the model, not {other.equations}"
@@ -63,26 +64,30 @@ def judge_print(
     return verdict, f"the print follows neither {other.equations} as printed nor the model"
 
 
-def _is_good(
-    comparison: Comparison, measured: Measured, significance: float
-) -> tuple[bool, ChiSquared | None]:
-    """Whether distances are small enough, and chi-squared of published points."""
+def _beside_the_curve(comparison: Comparison, measured: Measured, significance: float) -> Judged:
+    """The verdict without what is known of a difference."""
     reference = comparison.reference
-    if isinstance(reference, Series) and reference.is_published:
-        values = _values_of_sigma(comparison, measured, reference.sigma_values)
-        chi2 = chi_squared(measured.sigmas, measured.shifts, values, measured.fitted)
-        return chi2.p > significance, chi2
-    return bool(np.abs(measured.sigmas).max() <= 1.0), None
+    if not (isinstance(reference, Series) and reference.is_published):
+        good = np.abs(measured.sigmas).max() <= 1.0
+        return Judged(Verdict.AGREES if good else Verdict.FAILS)
+    shared = measured.shifts, measured.of_sigma, measured.free
+    chi2 = chi_squared(measured.sigmas, *shared)
+    direction = measured.larger if measured.free is None else measured.wider
+    error = smallest_error(direction, *shared, significance=significance)
+    if not chi2.p > significance:  # nor if it is nan
+        return Judged(Verdict.FAILS, chi2, error)
+    if chi2.p > DOUBT * significance and error <= LARGEST_ERROR:
+        return Judged(Verdict.AGREES, chi2, error)
+    return Judged(Verdict.CANNOT_TELL, chi2, error)
 
 
-def _values_of_sigma(comparison: Comparison, measured: Measured, values: int | None) -> int | None:
-    """From how many values the sigmas are as good as estimated, None if as good as known.
+def error_in_words(comparison: Comparison, measured: Measured, error: float | None) -> str:
+    """Which error a comparison would have noticed, in words; empty if there is none.
 
-    An allowance is known, and only the rest of the variance was estimated: so they are as good as
-    from more values (Welch 1947, Satterthwaite 1946).
+    It would have given a p below the significance in nine of ten readings.
     """
-    if values is None or comparison.allowance is None:
-        return values
-    estimated = 1.0 - (comparison.allowance.y / measured.scales) ** 2
-    effective = values / max(float(np.mean(estimated**2)), values / ALL_KNOWN)
-    return round(effective) if effective < ALL_KNOWN else None
+    if error is None or not np.isfinite(error):
+        return ""
+    what = "wider" if measured.free is not None else "larger"
+    what = "a ratio {} % larger" if comparison.metric == Metric.RATIO else f"a curve {{}} % {what}"
+    return what.format(f"{float(f'{100 * error:.2g}'):g}")

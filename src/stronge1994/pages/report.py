@@ -17,7 +17,7 @@ from stronge1994 import figure_table, gate, tables, verdict_table, versions, wor
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
-from stronge1994.judging.verdicts import VISIBLE_SHIFT
+from stronge1994.judging.verdicts import DOUBT, LARGEST_ERROR
 from stronge1994.ledger import outcome
 from stronge1994.names import is_of_paper
 from stronge1994.pages import (
@@ -35,8 +35,8 @@ MEANING = {
     Verdict.FAILS: "outside its tolerance, or a known difference has changed: the run fails",
     Verdict.DIFFERS: "as known: the cause is known or unknown, or the scatter of the data is not "
     "published, so that nobody can say what a difference means",
-    Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, and all points lay "
-    f"{VISIBLE_SHIFT:g} sigmas beside it",
+    Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, "
+    f"{100 * LARGEST_ERROR:g} % too large; or chance would explain the distances, but seldom",
     Verdict.NOT_COMPARED: "points, most of them of printed curves, are awaited, or are for other "
     "settings than those of the run",
     Verdict.AGREES: "within the tolerance of a stated value, or chance explains the distances",
@@ -57,6 +57,7 @@ def page(values: TemplateValues) -> str:
         "numbers": numbers,
         "measured": verdict_table.measured,
         "chance": verdict_table.chance,
+        "noticed": verdict_table.noticed,
     }
     environment.tests["in_paper"] = is_of_paper
     table = values["table"]
@@ -93,9 +94,11 @@ def figure(
     residuals: tables.Table,
     verdicts: list[Row],
     has_slide: bool,
+    overlays: Mapping[str, str],
 ) -> TemplateValues:
-    """Values of the template for one figure."""
+    """Values of the template for one figure; `overlays` are pictures of prints, by series."""
     rows = [row for row in verdicts if row["figure"] == name]
+    prints = [row["reference"] for row in rows if row["reference"] in overlays]
     strips = draw_residuals.strips(residuals, rows)
     return {
         "title": words.figure(name),
@@ -106,6 +109,10 @@ def figure(
         "has_residuals": len(residuals) > 0,
         "has_slide": has_slide,
         "strips": templates.embedded(_svg(strips)) if strips else None,
+        "prints": {
+            series: templates.embedded(Path(overlays[series]).read_bytes(), "png")
+            for series in dict.fromkeys(prints)
+        },
     }
 
 
@@ -165,6 +172,7 @@ def write(
     slides: Collection[str],
     sources: Mapping[str, Any],
     stated: Mapping[str, Mapping[str, Any]],
+    overlays: Mapping[str, str],
     symbols: str,
     impacts: Mapping[str, Any],
     rows: Collection[str],
@@ -173,8 +181,9 @@ def write(
     """Write all pages and the tables that belong to them; files and settings are those of the rule.
 
     `shows` and `captions` are those of the figures, `slides` names those that have one. `sources`
-    holds data/*/source.yaml, `stated` the series of which the note states numbers. `symbols` and
-    `impacts` are those of the ledger; `rows` and `entries` are as in `gate.faults`.
+    holds data/*/source.yaml, `stated` the series of which the note states numbers, and `overlays`
+    pictures of prints by series. `symbols` and `impacts` are those of the ledger; `rows` and
+    `entries` are as in `gate.faults`.
     """
     verdicts = verdict_table.gather(given.verdicts)
     tables.write_rows(made.verdicts, verdicts, verdict_table.COLUMNS)
@@ -192,7 +201,9 @@ def write(
     shown = [_with_formulas(row, config) for row in verdicts]
     table = figure_table.of_run(verdicts, shows)
     figures = {
-        name: figure(name, picture, captions[name], residuals[name], shown, name in slides)
+        name: figure(
+            name, picture, captions[name], residuals[name], shown, name in slides, overlays
+        )
         for name, picture in pictures.items()
     }
     run = versions.of_run(given.versions)
@@ -207,6 +218,7 @@ def write(
         "cases": which_model.cases(answers, trade),
         "n": numbers,
         "significance": config["significance"],
+        "doubt": DOUBT * config["significance"],
         "run": run,
         "faults": gate.faults(verdicts, ledger, rows, entries),
     }

@@ -52,10 +52,10 @@ def environment(*folders: str | Path) -> jinja2.Environment:
     return made
 
 
-def embedded(svg: bytes) -> str:
+def embedded(picture: bytes, kind: str = "svg+xml") -> str:
     """Address of a picture that holds the picture itself.
 
     >>> embedded(b"<svg/>")
     'data:image/svg+xml;base64,PHN2Zy8+'
     """
-    return f"data:image/svg+xml;base64,{base64.b64encode(svg).decode()}"
+    return f"data:image/{kind};base64,{base64.b64encode(picture).decode()}"

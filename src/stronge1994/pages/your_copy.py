@@ -7,8 +7,7 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
-from stronge1994 import tables
-from stronge1994.judging import distances
+from stronge1994 import goodness, tables
 from stronge1994.pages import templates
 from stronge1994.reference_data import LARGEST_SIGMA, Series, strict_yaml
 from stronge1994.reference_data.reading import PLACEHOLDER
@@ -17,9 +16,13 @@ from stronge1994.tables import Table
 
 Panel: TypeAlias = dict[str, Any]
 # Scripts of the page, each after those that it uses; the first is the explorer's.
-SCRIPTS = ("files.js", "map.js", "trace.js", "exports.js", "readings.js", "page.js")
+SCRIPTS = ["files.js", "map.js", "colours.js", "trace.js", "papaparse.min.js", "numbers.js"]
+SCRIPTS += ["exports.js", "readings.js", "page.js"]
 WORDS = ("name", "line", "series")  # of a curve
 DIGITS = 6  # of the curves, more than a print has
+# Of the table that tells which error a reading would show: points of a line, as many as the page
+# saves, and of markers; and degrees of freedom that marks have left over.
+OF_LINE, OF_MARKERS, LEFT_OVER = 15, 60, range(0, 17, 2)
 # What the run refuses, and so the page: texts, sigmas as a share of their range, points outside it.
 REFUSED = {
     "placeholder": PLACEHOLDER.pattern,
@@ -29,18 +32,31 @@ REFUSED = {
 
 
 def page(
-    paths: Sequence[str], curves: Mapping[str, str], series: Mapping[str, Any], version: str
+    paths: Sequence[str],
+    curves: Mapping[str, str],
+    series: Mapping[str, Any],
+    version: str,
+    allowances: Mapping[str, Mapping[str, float]],
+    significance: float,
 ) -> str:
     """The page as text, from its sources, tables of curves by figure, and `{source/name: entry}`.
 
-    Without the curve that a setting of the run takes away, the page has the others.
+    `allowances` are those of comparisons by their series. Without the curve that a setting of the
+    run takes away, the page has the others.
     """
     texts = {Path(path).name: Markup(Path(path).read_text(encoding="utf-8")) for path in paths}
+    library = "papaparse.min.js"  # its licence goes wherever it goes
+    texts[library] = (
+        Markup("/*\n") + texts["LICENSE.papaparse.txt"] + Markup("*/\n") + texts[library]
+    )
     stated = strict_yaml.load(str(texts["panels.yaml"]))["panels"]
     read = {figure: tables.read(path) for figure, path in curves.items()}
     panels = {name: _panel(panel, read[panel["figure"]], series) for name, panel in stated.items()}
+    for one in (one for panel in panels.values() for one in panel["series"]):
+        one["allowance"] = [allowances.get(one["id"], {}).get(axis, 0.0) for axis in "xy"]
     folder = next(Path(path).parent for path in paths if path.endswith("your_copy.html"))
-    told = {"version": version, "refused": REFUSED, "panels": panels}
+    limits = noncentrality(significance)
+    told = {"version": version, "refused": REFUSED, "noncentrality": limits, "panels": panels}
     data = json.dumps(told, ensure_ascii=False)
     template = templates.environment(folder).get_template("your_copy.html")
     return template.render(
@@ -48,14 +64,31 @@ def page(
     )
 
 
+def noncentrality(significance: float) -> dict[str, Any]:
+    """What chi-squared must have for 9 of 10 refusals: by points, and degrees left over by marks.
+
+    The sigmas of markers rest on a prior worth 4 values, two for each point, and what the marks
+    leave over.
+    """
+
+    def of(points: int, of_sigma: int | None) -> float:
+        return round(goodness.noncentrality(points, of_sigma, significance), 2)
+
+    return {
+        "of_line": [of(n, None) for n in range(1, OF_LINE + 1)],
+        "of_points": [
+            [of(n, 4 + 2 * n + left) for left in LEFT_OVER] for n in range(1, OF_MARKERS + 1)
+        ],
+    }
+
+
 def _panel(panel: Panel, table: Table, series: Mapping[str, Any]) -> Panel:
-    """A panel with the points of its curves, the series that can be read in it, and checks."""
+    """A panel with the points of its curves, and the series that can be read in it."""
     markers = panel.get("points", [])
     curves = [own for stated in panel["curves"] for own in _curves(stated, panel, table)]
     named = [*markers, *(one["series"] for one in curves if "series" in one)]
-    check = [_check(place, curve, panel["range"]) for place, curve in enumerate(curves)]
     found = [_readable(full, series[full], full not in markers) for full in named]
-    return panel | {"curves": curves, "series": found, "check": check}
+    return panel | {"curves": curves, "series": found}
 
 
 def _readable(full: str, entry: Mapping[str, Any], line: bool) -> dict[str, Any]:
@@ -90,13 +123,3 @@ def _curves(stated: Panel, panel: Panel, table: Table) -> Iterator[Panel]:
 
 def _short(values: Any) -> list[float]:
     return [float(f"{value:.{DIGITS}g}") for value in values]
-
-
-def _check(place: int, curve: Panel, spans: Sequence[Sequence[float]]) -> dict[str, Any]:
-    """A point beside a curve, and its distance as the judge measures it."""
-    scales = [high - low for low, high in spans]
-    point = [low + 0.37 * (high - low) for low, high in spans]
-    line = curve["x"], curve["y"]
-    one = [[value] for value in point]
-    near, above = distances.curve_residuals(one, line, (scales[0], scales[1]))
-    return {"curve": place, "point": point, "near": abs(float(near[0])), "above": float(above[0])}

@@ -5,6 +5,7 @@ for each series; that of an awaited one may be missing, and has a head if it is 
 """
 
 import copy
+import dataclasses
 import functools
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -20,6 +21,7 @@ from stronge1994.reference_data.series import (
     of,
     text_of,
 )
+from stronge1994.tables import Table
 
 __all__ = [
     "Axis",
@@ -41,6 +43,8 @@ Schema: TypeAlias = Mapping[str, Any]
 # Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
 # A measured series may have a larger one: that is how it was measured.
 LARGEST_SIGMA = 0.01
+# Smallest one of a reading: a fifth of a pixel of a picture 4000 pixels wide.
+SMALLEST_SIGMA = 5e-5
 
 
 def _ascends(_: Any, wanted: bool, numbers: Any, schema: Schema) -> Iterator[Exception]:
@@ -81,9 +85,8 @@ def load(folder: Path, schema: Schema) -> Source:
         series["path"] = None
         if series["kind"] == "awaited" and file.name in names:
             every[name] = read = reading.filled(series, file)
-            for where, axis in Series(**read).axes.items():
-                _refuse_sigma(f"{file}: sigma_{where}", axis)
-            read["points"] = len(Series(**read).points())
+            read["points"] = len(_read_points(Series(**read), file))
+            read["overlay"] = _overlay(file) if file.with_suffix(".png").name in names else None
         elif series["kind"] != "awaited":
             series["path"] = str(file)
             count = len(Series(**series).points())
@@ -91,7 +94,8 @@ def load(folder: Path, schema: Schema) -> Source:
                 where = f"{path}: series.{name}.points = {series.get('points')}"
                 raise SourceError(f"{where}: {series['path']} has {count} points")
     own = {f"{name}.csv" for name in every}
-    known = {"source.yaml", *own, *source.get("made_with", [])}
+    pictures = {f"{name}.png" for name in every}  # of readings, from figures/your_copy.html
+    known = {"source.yaml", *own, *pictures, *source.get("made_with", [])}
     for name in source.get("made_with", []):
         if not (folder / name).is_file():
             raise SourceError(f"{folder / name}: missing, and {path} says it is there")
@@ -118,6 +122,33 @@ def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
         )
     if not (isinstance(axis.sigma, str) or kind == "measured"):
         _refuse_sigma(f"{where}.sigma", axis)
+
+
+def _read_points(series: Series, file: Path) -> Table:
+    """The points of a reading, refused if they cannot be one: with such sigmas, or two times."""
+    known = series.calibration
+    assert known is not None
+    for where, axis, of_mark in zip("xy", series.axes.values(), known.sigma, strict=True):
+        low, high = axis.range
+        for key, sigma in ((f"sigma_{where}", axis.sigma), (f"mark_sigma_{where}", of_mark)):
+            _refuse_sigma(f"{file}: {key}", dataclasses.replace(axis, sigma=sigma))
+            if (least := SMALLEST_SIGMA * (high - low)) > float(sigma):
+                allowed = f"allowed is {least:g} or more; no picture is as fine"
+                raise SourceError(f"{file}: {key} = {sigma:g}: {allowed}")
+    points = series.points()
+    twice = points[points.duplicated()]
+    if len(twice):
+        x, y = twice.iloc[0]
+        raise SourceError(f"{file}: the point {x:g}, {y:g} stands twice; the second tells nothing")
+    return points
+
+
+def _overlay(file: Path) -> str:
+    """The picture of a print under our curves, which lies beside a reading."""
+    picture = file.with_suffix(".png")
+    if not picture.read_bytes().startswith(b"\x89PNG"):
+        raise SourceError(f"{picture}: no PNG; figures/your_copy.html saves one")
+    return str(picture)
 
 
 def _refuse_sigma(where: str, axis: Axis) -> None:

@@ -11,27 +11,44 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from stronge1994.reference_data.calibration import ANY, FLAT_BED, Calibration
 from stronge1994.reference_data.series import NUMBER, SourceError, head_and_table, text_of
 
 # What a head must have, and what is needed there.
-OF_SIGMA = "one standard deviation, in the unit of this axis, a positive number as 0.012"
+ONE = "one standard deviation, in the unit of this axis, a positive number as 0.012"
 WANTED = {
     "who": "the name of who read the points",
     "when": "the day of the reading, as 2026-11-28, not a later one than today",
     "from": "what was read, as Fig. 5, p. 444 of my copy, scanned at 300 dpi",
     "how": "the program, and how it was calibrated",
-    "sigma_x": OF_SIGMA,
-    "sigma_y": OF_SIGMA,
+    "axes": "the first and the last value of x and of y in the print, as 0 to 8; -3 to 1",
+    "marks": "x and y of three places or more by which it was calibrated, as 0 0; 8 0; 0 -3; 8 -3",
+    "mark_sigma_x": ONE,
+    "mark_sigma_y": ONE,
+    "sigma_x": ONE,
+    "sigma_y": ONE,
     "sigma_origin": "where sigma comes from, as two readings, in 10 characters or more",
 }
 # What it may have.
-MORE = {"series": "", "sigma_values": "on how many values sigma rests, a whole number from 1 on"}
+MORE = {
+    "series": "",
+    "tilt": f"{ANY:g}, or {FLAT_BED:g} for a flat-bed scan",
+    "sigma_values": "on how many values sigma rests, a whole number from 1 on",
+    "line_width": "the width of the printed line in pixels, a positive number as 2.4",
+}
 OF_SETTING = "for which value the points hold, a positive number as 0.83"
 # Fewest characters of texts; the schema asks the same of an origin of sigma.
-LEAST = {"who": 3, "from": 3, "how": 3, "sigma_origin": 10}
+LEAST = {"who": 2, "from": 3, "how": 3, "sigma_origin": 10}
 PLACEHOLDER = re.compile(
     r"<.*>|\W*|x+|(your|todo|tbd)\b.*|(the )?name|who|when|from|how|none|n/a|unknown", re.I
 )
+_N = NUMBER.pattern
+PATTERNS = {
+    "axes": re.compile(rf"{_N} to {_N}; {_N} to {_N}"),
+    "marks": re.compile(rf"{_N} {_N}(; {_N} {_N}){{2,}}"),
+    "sigma_values": re.compile("[1-9][0-9]{0,5}"),
+    "tilt": re.compile(f"{ANY:g}|{FLAT_BED:g}"),
+}
 
 
 def filled(series: Mapping[str, Any], file: Path) -> dict[str, Any]:
@@ -47,10 +64,37 @@ def filled(series: Mapping[str, Any], file: Path) -> dict[str, Any]:
         "y": series["y"] | {"sigma": float(head["sigma_y"])},
         "sigma_origin": head["sigma_origin"],
         "settings": series.get("settings", {}) | {key: float(head[key]) for key in asked},
+        "calibration": _calibration(head, file),
     }
     if "sigma_values" in head:
         entry["sigma_values"] = int(head["sigma_values"])
     return entry
+
+
+def _calibration(head: Mapping[str, str], file: Path) -> Calibration:
+    """How the axes were found, from a head whose values have their patterns."""
+
+    def pairs(key: str) -> tuple[Any, ...]:
+        every = head[key].replace(" to ", " ").split(";")
+        return tuple(tuple(map(float, pair.split())) for pair in every)
+
+    found = Calibration(
+        axes=pairs("axes"),
+        marks=pairs("marks"),
+        sigma=(float(head["mark_sigma_x"]), float(head["mark_sigma_y"])),
+        tilt=float(head.get("tilt", ANY)),
+        is_line="line_width" in head,
+    )
+    if any(first >= last for first, last in found.axes):
+        raise SourceError(f"{file}: axes = {head['axes']}: the first value must be the smaller")
+    if not found.fixes(6):
+        raise SourceError(f"{file}: marks = {head['marks']}: they lie on one line")
+    if found.tilt > FLAT_BED and not found.fixes(8):
+        raise SourceError(
+            f"{file}: marks = {head['marks']}: needed are four with the corner opposite the "
+            f"origin, or three on each axis; fewer with `# tilt: {FLAT_BED:g}`, a flat-bed scan"
+        )
+    return found
 
 
 def _head(file: Path, wanted: Mapping[str, str]) -> dict[str, str]:
@@ -87,8 +131,8 @@ def _head(file: Path, wanted: Mapping[str, str]) -> dict[str, str]:
 def _is_admissible(key: str, value: str) -> bool:
     if key in LEAST:
         return len(value) >= LEAST[key] and not PLACEHOLDER.fullmatch(value)
-    if key == "sigma_values":
-        return bool(re.fullmatch("[1-9][0-9]{0,5}", value))
+    if key in PATTERNS:
+        return bool(PATTERNS[key].fullmatch(value))
     if key != "when":
         return bool(NUMBER.fullmatch(value)) and 0 < float(value) < math.inf
     # The day begins there first: a reader may be ahead of this computer.

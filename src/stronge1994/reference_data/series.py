@@ -16,6 +16,7 @@ from pydantic.dataclasses import dataclass
 
 from planarimpact.common import csv_text
 from planarimpact.common.arrays import Array
+from stronge1994.reference_data.calibration import Calibration
 from stronge1994.tables import Table, with_unit
 
 # Kinds of series that hold points of nature: published ones, or measured by their owner.
@@ -120,7 +121,8 @@ class Series:
     `path` is that of its table, None while it is awaited. `others` says that a code which is not
     ours computed it. `sigma_values` is the number of independent values from which the sigmas were
     estimated, None if they are known. `parameters` are those of the source, by name; `settings`
-    are those of a figure for which alone the points hold.
+    are those of a figure for which alone the points hold. `calibration` is that of the picture in
+    which the points were read, if it is known; `overlay` is a picture of it under our curves.
     """
 
     kind: str
@@ -136,6 +138,8 @@ class Series:
     parameters: dict[str, float] = field(default_factory=dict)
     settings: dict[str, Any] = field(default_factory=dict)
     open: tuple[str, ...] = ()
+    calibration: Calibration | None = None
+    overlay: str | None = None
 
     @property
     def ordinates(self) -> tuple[Axis, ...]:

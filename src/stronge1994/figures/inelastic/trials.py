@@ -20,8 +20,8 @@ SIGMA = "tangential_restitution_uncertainty [1]"
 WHOLE = "to (1 + e) m2/m1"
 # The pairs that decide most: the least elastic one, and the one farthest from all models.
 SOFT, HARD = "polyurethane", "chrome steel"
-# Pairs agree with a model if chance gives their chi-squared with at least this probability.
-SIGNIFICANCE = 0.01
+# Pairs differ from a model if chance gives their chi-squared with at most this probability.
+SIGNIFICANCE = 0.001
 
 
 class Trial(NamedTuple):
