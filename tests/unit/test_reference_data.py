@@ -1,5 +1,7 @@
 """What may stand in data/ is read as it is meant; tests/refusals has what is refused."""
 
+import contextlib
+
 import numpy as np
 import pytest
 
@@ -73,6 +75,21 @@ def test_a_file_with_a_head_fills_an_awaited_series(mu, end, tmp_path):
     file.unlink()
     awaited = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
     assert (awaited["kind"], awaited["path"]) == ("awaited", None)
+
+
+@pytest.mark.parametrize(("y", "admitted"), [(3.17, True), (3.19, False)])
+def test_a_point_of_a_reading_may_lie_as_far_outside_the_range_as_a_map_may_be_off(
+    y, admitted, tmp_path
+):
+    """Its own sigma may be much smaller: here 0.01, of a range of 6."""
+    folder = tmp_path / "johnson1983"
+    folder.mkdir()
+    text = (ROOT / "data/johnson1983/source.yaml").read_text()
+    (folder / "source.yaml").write_text(text)
+    (folder / "rubber_sphere.csv").write_text(f"{head()}incidence,velocity\n1,{y}\n")
+    refused = contextlib.nullcontext() if admitted else pytest.raises(reference_data.SourceError)
+    with refused:
+        reference_data.load(folder, schema("source"))
 
 
 def test_a_point_may_lie_three_sigmas_outside_the_range(tmp_path):

@@ -131,7 +131,7 @@ const readings = (() => {
         return `Sigma along ${"xy"[i]} is ${sizes}. Read at a larger size.`;
       }
       const out = points.map((place) => map.to_axes(place)[i])
-        .find((value) => Math.max(low - value, value - high) > DATA.refused.sigmas_outside * sigmas[i]);
+        .find((value) => Math.max(low - value, value - high) > DATA.refused.slack * (high - low));
       if (out !== undefined) {
         const where = `${columns[i]} = ${round(out, 3)} is outside ${low} to ${high}`;
         return `${where}. Are marks or columns exchanged, or a sign turned?`;

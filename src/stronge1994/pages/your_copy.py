@@ -10,8 +10,7 @@ from markupsafe import Markup
 from stronge1994 import goodness, tables
 from stronge1994.pages import templates
 from stronge1994.reference_data import LARGEST_SIGMA, Series, strict_yaml
-from stronge1994.reference_data.reading import PLACEHOLDER
-from stronge1994.reference_data.series import MOST_SIGMAS_OUTSIDE
+from stronge1994.reference_data.reading import PLACEHOLDER, SLACK
 from stronge1994.tables import Table
 
 Panel: TypeAlias = dict[str, Any]
@@ -27,7 +26,7 @@ OF_LINE, OF_MARKERS, LEFT_OVER = 15, 60, range(0, 17, 2)
 REFUSED = {
     "placeholder": PLACEHOLDER.pattern,
     "largest_sigma": LARGEST_SIGMA,
-    "sigmas_outside": MOST_SIGMAS_OUTSIDE,
+    "slack": SLACK,
 }
 
 

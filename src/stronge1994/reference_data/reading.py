@@ -42,6 +42,8 @@ LEAST = {"who": 2, "from": 3, "how": 3, "sigma_origin": 10}
 PLACEHOLDER = re.compile(
     r"<.*>|\W*|x+|(your|todo|tbd)\b.*|(the )?name|who|when|from|how|none|n/a|unknown", re.I
 )
+# Share of the range by which the map of a picture may move a point out of it.
+SLACK = 0.03
 _N = NUMBER.pattern
 PATTERNS = {
     "axes": re.compile(rf"{_N} to {_N}; {_N} to {_N}"),
@@ -60,8 +62,8 @@ def filled(series: Mapping[str, Any], file: Path) -> dict[str, Any]:
         "kind": "digitised",
         "path": str(file),
         "digitised_by": "{who}, {when}, from {from}, {how}".format(**head),
-        "x": series["x"] | {"sigma": float(head["sigma_x"])},
-        "y": series["y"] | {"sigma": float(head["sigma_y"])},
+        "x": _axis(series["x"], head["sigma_x"]),
+        "y": _axis(series["y"], head["sigma_y"]),
         "sigma_origin": head["sigma_origin"],
         "settings": series.get("settings", {}) | {key: float(head[key]) for key in asked},
         "calibration": _calibration(head, file),
@@ -69,6 +71,12 @@ def filled(series: Mapping[str, Any], file: Path) -> dict[str, Any]:
     if "sigma_values" in head:
         entry["sigma_values"] = int(head["sigma_values"])
     return entry
+
+
+def _axis(axis: Mapping[str, Any], sigma: str) -> dict[str, Any]:
+    """An axis with this sigma. The map of a picture may move points farther than that."""
+    low, high = axis["range"]
+    return {**axis, "sigma": float(sigma), "slack": SLACK * (high - low)}
 
 
 def _calibration(head: Mapping[str, str], file: Path) -> Calibration:

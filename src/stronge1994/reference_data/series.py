@@ -40,13 +40,15 @@ class SourceError(Exception):
 class Axis:
     """An axis: a column of a series, its unit, what its values can be, and their sigma.
 
-    `sigma` is one number for all points, or the name of the column that has that of each.
+    `sigma` is one number for all points, or the name of the column that has that of each. A value
+    may lie outside the range by `slack`, for an error that all points of a reading share.
     """
 
     column: str
     unit: str
     sigma: float | str
     range: tuple[float, float]
+    slack: float = 0.0
 
     @property
     def name(self) -> str:
@@ -70,7 +72,8 @@ class Axis:
 
         One with an uncertainty of its own lies in the range: no axis of a picture was read.
         """
-        return 0.0 if isinstance(self.sigma, str) else MOST_SIGMAS_OUTSIDE * self.sigma
+        own = 0.0 if isinstance(self.sigma, str) else MOST_SIGMAS_OUTSIDE * self.sigma
+        return max(own, self.slack)
 
     def admits(self, values: ArrayLike) -> NDArray[np.bool_]:
         """Which of some values can be; an empty cell, nan, can.
@@ -185,10 +188,10 @@ class Series:
             if not (admitted := axis.admits(points[column])).all():
                 row, (low, high) = int(admitted.argmin()), axis.range
                 where = f"{path}, line {lines[row]}, column '{column}'"
+                sigmas = "" if axis.slack else f"{MOST_SIGMAS_OUTSIDE} sigmas, "
                 raise SourceError(
                     f"{where}: {cells[column][row]} is outside {low:g} to {high:g} by more than "
-                    f"{MOST_SIGMAS_OUTSIDE} sigmas, {axis.beyond:g}"
-                    + self._guess(points, axes, column)
+                    f"{sigmas}{axis.beyond:g}" + self._guess(points, axes, column)
                 )
         return points
 
