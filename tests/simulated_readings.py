@@ -249,7 +249,7 @@ def whole_run(seed, factors=()):
 
     `factors` are those by which the curves of some series, by name, are too large.
     """
-    rng, every = np.random.default_rng([1994, seed]), config()["comparisons"]
+    rng = np.random.default_rng([1994, seed])
     tilt, click = rng.choice(TILTS), rng.choice(CLICKS)
     given, readers = [], {}
     for panel, series, name in readable():
@@ -267,10 +267,7 @@ def whole_run(seed, factors=()):
             x = low + (high - low) * np.linspace(0.05, 0.9, 9)
             given.append(reader.markers(series, np.transpose([x, np.interp(x, *curve.T)])))
     with scripts() as page_of, tempfile.TemporaryDirectory() as folder:
-        answers = page_of.map("read", given)
-        found = judged(answers, folder)
-    assert set(found) <= set(every)
-    return found
+        return judged(page_of.map("read", given), folder)
 
 
 def true_curve(name, columns):

@@ -90,8 +90,7 @@ class Comparison:
     `points`, in the `regime`. `says` is what the reference says, for readers. A comparison, like a
     reference, may be for some `settings` of the figure alone. A known difference has `bounds` about
     what was found, of its `rms`, `max` or `difference` in the unit of the axis. They guard against
-    changes, and say nothing on what is right. A `scale` is fitted, see
-    `judging.scales`.
+    changes, and say nothing on what is right. A `scale` is fitted, see `judging.scales`.
     """
 
     name: str

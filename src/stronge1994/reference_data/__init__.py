@@ -5,7 +5,6 @@ for each series; that of an awaited one may be missing, and has a head if it is 
 """
 
 import copy
-import dataclasses
 import functools
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -121,7 +120,7 @@ def _refuse_axis(where: str, axis: Axis, kind: str) -> None:
             f"{where}.range = [{low:g}, {high:g}]: the first number must be the smaller"
         )
     if not (isinstance(axis.sigma, str) or kind == "measured"):
-        _refuse_sigma(f"{where}.sigma", axis)
+        _refuse_sigma(f"{where}.sigma", float(axis.sigma), axis)
 
 
 def _read_points(series: Series, file: Path) -> Table:
@@ -131,7 +130,7 @@ def _read_points(series: Series, file: Path) -> Table:
     for where, axis, of_mark in zip("xy", series.axes.values(), known.sigma, strict=True):
         low, high = axis.range
         for key, sigma in ((f"sigma_{where}", axis.sigma), (f"mark_sigma_{where}", of_mark)):
-            _refuse_sigma(f"{file}: {key}", dataclasses.replace(axis, sigma=sigma))
+            _refuse_sigma(f"{file}: {key}", float(sigma), axis)
             if (least := SMALLEST_SIGMA * (high - low)) > float(sigma):
                 allowed = f"allowed is {least:g} or more; no picture is as fine"
                 raise SourceError(f"{file}: {key} = {sigma:g}: {allowed}")
@@ -151,13 +150,13 @@ def _overlay(file: Path) -> str:
     return str(picture)
 
 
-def _refuse_sigma(where: str, axis: Axis) -> None:
+def _refuse_sigma(where: str, sigma: float, axis: Axis) -> None:
     """Refuse a sigma with which points would judge nothing."""
     low, high = axis.range
     most = LARGEST_SIGMA * (high - low)
-    if float(axis.sigma) > most:
+    if sigma > most:
         raise SourceError(
-            f"{where} = {axis.sigma:g}: allowed is up to {most:g}, a hundredth of the "
+            f"{where} = {sigma:g}: allowed is up to {most:g}, a hundredth of the "
             f"range {low:g} to {high:g}; with more the series would judge nothing"
         )
 
