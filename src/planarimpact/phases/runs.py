@@ -1,0 +1,67 @@
+"""The order of stick and slip of contacts, and the history of one, from the steps of `follow`."""
+
+from collections.abc import Callable
+from itertools import groupby
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.results import Regime
+from planarimpact.phases import TERMS, Step
+
+
+class Run(NamedTuple):
+    """Steps of one phase: instants (k,) from its first to its last, and states (d, k) there."""
+
+    phase: Any
+    time: Array
+    z: Array
+
+
+def runs(steps: list[Step], samples: int, scale: Callable[[Any], float]) -> list[Run]:
+    """The phases of a contact, in order, at `samples` instants evenly spread over it.
+
+    Both ends of each phase come on top, so an event is there twice, before and after it. `scale` is
+    the unit of time of a phase. Phases that take no time are left out.
+    """
+    lasting = (step for step in steps if step.share > 0)
+    phases = [(phase, list(own)) for phase, own in groupby(lasting, lambda step: step.phase)]
+    spans = [np.cumsum([step.length * step.share for step in own]) for _, own in phases]
+    ends = np.cumsum(
+        [scale(phase) * span[-1] for (phase, _), span in zip(phases, spans, strict=True)]
+    )
+    grid, start, found = np.linspace(0.0, ends[-1], samples), 0.0, []
+    for (phase, own), span, end in zip(phases, spans, ends, strict=True):
+        inside = grid[(grid > start) & (grid < end)]
+        # In its own unit of time a phase keeps the digits of a short one.
+        elapsed = np.concatenate([[0.0], (inside - start) / scale(phase), span[-1:]])
+        which = np.minimum(np.searchsorted(span, elapsed), span.size - 1)
+        begin, length = np.append(0.0, span)[which], np.array([step.length for step in own])[which]
+        series = np.array([step.series for step in own])[which]
+        powers = ((elapsed - begin) / length)[:, None] ** np.arange(TERMS)
+        states = np.einsum("nk,nkd->dn", powers, series)
+        found.append(Run(phase, np.concatenate([[start], inside, [end]]), states))
+        start = end
+    return found
+
+
+class Order:
+    """The order of stick and slip of n contacts so far; phases that take no time do not count."""
+
+    def __init__(self, n: int) -> None:
+        """Before the first phase."""
+        self.sticks = np.zeros(n, int)
+        self.begun, self.starts_in_slip, self.ends_in_slip = np.zeros((3, n), bool)
+
+    def add(self, who: Integers, slips: Booleans, time: Array) -> None:
+        """Add a phase of some of them."""
+        lasts, last = time > 0, self.ends_in_slip[who]
+        self.sticks[who] += lasts & ~slips & (last | ~self.begun[who])
+        self.starts_in_slip[who] |= lasts & slips & ~self.begun[who]
+        self.ends_in_slip[who] = np.where(lasts, slips, last)
+        self.begun[who] |= lasts
+
+    def regimes(self) -> Integers:
+        """Codes of `Regime`."""
+        return Regime.of_phases(self.sticks, self.starts_in_slip, self.ends_in_slip)
