@@ -25,9 +25,9 @@ Symbols and their names. Every model takes the first four. Index 1 is tangential
 | zeta^2 | normal over tangential stiffness | `stiffness_ratio` |
 | e | energetic coefficient of restitution; `loss` is what takes the energy | `restitution` |
 | w | v1/(mu v2(0)), velocity of the contact point, in a rebound at its end | `velocity` |
-| F1, F2 | friction, normal force | `friction`, `normal` in a history |
+| F1, F2 | friction, normal force | `friction_force`, `normal` in a history |
 | t_c | time of compression, the unit of time in a history | `time` |
-| mu, nu | friction and Poisson's ratio of bodies | `friction`, `poisson_ratio` |
+| mu, nu | coefficient of friction and Poisson's ratio of bodies | `friction`, `poisson_ratio` |
 | tau | relaxation time of viscous bodies (Kelvin-Voigt) [s] | `relaxation_time` |
 | p_y | yield pressure of plastic bodies [Pa] | `yield_pressure` |
 
