@@ -44,19 +44,21 @@ UNITS: dict[type, dict[str, str]] = {
     History: {
         "time": "t_c",
         "normal": "m2 Omega v2(0)",
-        "friction": "mu m2 Omega v2(0)",
+        "friction_force": "mu m2 Omega v2(0)",
         "velocity": "mu v2(0)",
         "spring": "mu v2(0)/Omega",
     },
     ContinuumHistory: {
         "time": "t_c",
         "normal": "F2max",
-        "friction": "mu F2max",
+        "friction_force": "mu F2max",
         "velocity": "mu v2(0)",
         "contact_radius": "a_max",
         "stick_radius": "a_max",
     },
 }
+# Columns whose names are not those of their fields, as programs read them.
+COLUMNS = {"friction_force": "friction"}
 # Numbers that the command line accepts; Python's float() accepts others too, such as 1_000.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
@@ -176,7 +178,7 @@ def _with_units(result: Rebound | History | ContinuumHistory) -> dict[str, Array
     """Columns by name and unit, from the fields of a result that have a value."""
     fields = result._asdict()
     return {
-        f"{name} [{unit}]" if unit else name: fields[name]
+        f"{COLUMNS.get(name, name)} [{unit}]" if unit else name: fields[name]
         for name, unit in UNITS[type(result)].items()
         if fields[name] is not None
     }

@@ -185,7 +185,7 @@ def test_one_and_many_and_history_agree(impacts, everywhere, found, loss):
         contact = lumped.history(*point, samples=40, loss=loss)
         assert abs(contact.velocity[-1] - alone.velocity) <= rounding(point, loss), point
         slack = rounding((1.0, contact.normal.max()), loss)
-        assert (np.abs(contact.friction) <= contact.normal + slack).all(), point
+        assert (np.abs(contact.friction_force) <= contact.normal + slack).all(), point
         phases = sum(event.kind in ("stick", "slip") for event in contact.events)
         assert (phases > 3) == (alone.regime == Regime.MULTIPLE), point
         if max(x, beta) > 1e150:  # the squares below are infinite

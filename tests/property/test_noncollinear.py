@@ -199,8 +199,8 @@ def test_history_keeps_coulombs_law_and_ends_at_the_rebound(impacts):
         contact = paper_history(v1, v2, mass, friction, *rest, samples=50)
         result = paper_rebound(v1, v2, mass, friction, *rest)
         scale = contact.normal_force.max()
-        rounding = 1e-12 * max(scale, np.abs(contact.friction).max())
-        assert (np.abs(contact.friction) <= friction * contact.normal_force + rounding).all()
+        rounding = 1e-12 * max(scale, np.abs(contact.friction_force).max())
+        assert (np.abs(contact.friction_force) <= friction * contact.normal_force + rounding).all()
         assert (contact.normal_force >= 0).all() and (np.diff(contact.time) >= 0).all()
         reach = max(1.0, np.abs(contact.tangential).max())
         assert abs(contact.tangential[-1] - result.tangential) <= 1e-11 * reach

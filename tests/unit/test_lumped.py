@@ -50,7 +50,7 @@ def test_without_loss_all_are_the_same_to_the_bit(loss):
     x, beta, zeta2, e = drawn(2000)
     same(lumped.rebound(x, beta, zeta2, 1.0, loss=loss), lumped.rebound(x, beta, zeta2, 1.0))
     one, other = lumped.history(2.5, loss=loss), lumped.history(2.5)
-    np.testing.assert_array_equal(one.friction, other.friction)
+    np.testing.assert_array_equal(one.friction_force, other.friction_force)
     assert lumped.friction_work(2.5, loss=loss) == lumped.friction_work(2.5)
     e[::3] = 1.0  # some of many
     mixed = lumped.rebound(x, beta, zeta2, e, loss=loss)
@@ -77,7 +77,7 @@ def test_unloading_stiffness_is_the_elastic_stiffness_of_unloading():
         for name in ALIKE[:3]:
             np.testing.assert_allclose(getattr(found, name), getattr(limit, name), atol=1e-13)
         slides = lumped.history(3.6, 3.5, 1.21, none, loss="unloading-stiffness")
-        np.testing.assert_array_equal(slides.friction, slides.normal)
+        np.testing.assert_array_equal(slides.friction_force, slides.normal)
 
 
 # One contact.
@@ -89,14 +89,14 @@ def test_unloading_stiffness_is_the_elastic_stiffness_of_unloading():
 def test_a_history_is_that_of_its_rebound(groups, x, loss):
     contact = lumped.history(x, *groups, samples=2000, loss=loss)
     result = lumped.rebound(x, *groups, loss=loss)
-    share = np.abs(contact.friction).max() / contact.normal.max()
+    share = np.abs(contact.friction_force).max() / contact.normal.max()
     assert share == pytest.approx(result.peak_friction, abs=1e-5)
     assert (np.diff(contact.time) >= 0).all() and contact.time[0] == 0
     _, zeta2, e = groups
     assert contact.time[-1] == (2 if loss == "viscous" else 1 + e)
     if loss != "viscous":
         stiffness = zeta2 if loss == "hysteretic" else e * e * zeta2
-        np.testing.assert_allclose(contact.spring, stiffness * contact.friction)
+        np.testing.assert_allclose(contact.spring, stiffness * contact.friction_force)
         shares = 2**1010 * np.array([x, groups[0], zeta2])  # their squares are no numbers
         large = lumped.history(*shares, e, samples=2000, loss=loss)
         np.testing.assert_allclose(large.spring, 2**1010 * contact.spring, rtol=1e-9)
@@ -110,14 +110,14 @@ def test_a_history_is_that_of_its_rebound(groups, x, loss):
         state = np.array(event[1:], float)[:, None]
         assert (columns == state).all(axis=0).any(), event
     mirrored = lumped.history(-x, *groups, samples=2000, loss=loss)
-    for name in ("friction", "velocity", "spring"):
+    for name in ("friction_force", "velocity", "spring"):
         np.testing.assert_array_equal(getattr(mirrored, name), -getattr(contact, name))
     np.testing.assert_array_equal(mirrored.normal, contact.normal)
 
 
 def test_without_restitution_the_spring_keeps_the_rest_of_the_loss():
     contact, result = lumped.history(1.0, restitution=0.0), lumped.rebound(1.0, restitution=0.0)
-    strain = 1.21 * contact.friction[-1] ** 2 / 2
+    strain = 1.21 * contact.friction_force[-1] ** 2 / 2
     work = lumped.friction_work(1.0, restitution=0.0)
     assert work + strain == pytest.approx(result.dissipation, abs=1e-14)
     assert result.regime is Regime.STICK
@@ -160,7 +160,9 @@ def test_the_least_incidences_are_followed_through():
         for event in lumped.history(*groups, samples=2).events:
             if event.kind == EventKind.SLIP:
                 # A friction force of `normal` is rounded a few times on its way.
-                assert abs(event.friction) == pytest.approx(event.normal, rel=1e-15, abs=5e-324)
+                assert abs(event.friction_force) == pytest.approx(
+                    event.normal, rel=1e-15, abs=5e-324
+                )
         assert lumped.friction_work(*groups) == pytest.approx(dissipation, rel=0, abs=5e-324)
 
 

@@ -88,12 +88,12 @@ def test_friction_holds_a_contact_without_restitution_closed():
     ]
     held = contact.time >= contact.events[5].time
     np.testing.assert_allclose(contact.normal[held], 0, atol=1e-15)
-    mean = mass.coupling * contact.friction[held][1:]
+    mean = mass.coupling * contact.friction_force[held][1:]
     np.testing.assert_allclose(contact.normal_force[held][1:], mean, atol=1e-14)
     # Friction is the force of a spring: in stick and in creep alike, by its deflection.
-    np.testing.assert_allclose(contact.spring, 1.3185 * contact.friction, atol=1e-13)
+    np.testing.assert_allclose(contact.spring, 1.3185 * contact.friction_force, atol=1e-13)
     # The change of velocity is the impulse of the forces.
-    force = mass.coupling * contact.normal_force - mass.tangential * contact.friction
+    force = mass.coupling * contact.normal_force - mass.tangential * contact.friction_force
     change = np.trapezoid(force, contact.time)
     assert contact.tangential[-1] - 6.2256 == pytest.approx(change, abs=1e-5)
     result = paper_rebound(6.2256, 1.0, mass, 1.8575, 0.0, 1.3185)

@@ -78,7 +78,7 @@ def test_friction_beyond_its_limit_is_found_in_either_direction(
     def wrong(*group, samples):
         found = history(*group, samples)
         peak = max(found.events, key=lambda event: event.normal)  # at maximum compression, N = 1
-        return found._replace(events=[peak._replace(friction=friction)])
+        return found._replace(events=[peak._replace(friction_force=friction)])
 
     monkeypatch.setattr(lumped, "history", wrong)
     found = variant("contacts", points)

@@ -438,7 +438,8 @@ def test_the_numbers_shown_are_those_of_the_package(show):
     time, trace = value(tab, "time"), lumped.history(x, beta, zeta2, e)
     time = tab.evaluate(f"stage.first_bounce({time}).time")
     normal, friction, velocity = (
-        np.interp(time, trace.time, one) for one in (trace.normal, trace.friction, trace.velocity)
+        np.interp(time, trace.time, one)
+        for one in (trace.normal, trace.friction_force, trace.velocity)
     )
     shares = {
         "motion normal to the surface": e**2 * (1 - normal**2),

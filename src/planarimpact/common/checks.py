@@ -130,9 +130,11 @@ def _first(name: str, numbers: Array, wrong: Booleans) -> str:
 def _is_masked(value: object) -> bool:
     """Whether an entry is masked, in lists of arrays too: NumPy's conversion ignores the mask."""
     if isinstance(value, (list, tuple)):
-        nested = list, tuple, np.ma.MaskedArray
+        nested = list, tuple, np.ndarray
         return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
-    return isinstance(value, np.ma.MaskedArray) and bool(np.ma.is_masked(value))
+    # Numbers and plain arrays do without numpy.ma, which takes longer to import than this package.
+    is_special = isinstance(value, np.ndarray) and type(value) is not np.ndarray
+    return is_special and bool(np.ma.is_masked(value))
 
 
 def _has_booleans(value: object) -> bool:

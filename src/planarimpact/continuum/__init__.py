@@ -39,7 +39,7 @@ class ContinuumHistory(NamedTuple):
         t/t_c, from 0 to separation, 2 where e = 1; t_c is the time of compression.
     normal : ndarray, shape (n,)
         Normal force F2 over its largest value.
-    friction : ndarray, shape (n,)
+    friction_force : ndarray, shape (n,)
         Tangential force F1 over mu times the largest normal force; positive opposes a positive
         incidence.
     velocity : ndarray, shape (n,)
@@ -53,7 +53,7 @@ class ContinuumHistory(NamedTuple):
 
     time: Array
     normal: Array
-    friction: Array
+    friction_force: Array
     velocity: Array
     contact_radius: Array
     stick_radius: Array

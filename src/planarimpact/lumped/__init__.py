@@ -170,8 +170,8 @@ def history(
     Returns
     -------
     History
-        time in t_c, normal, friction, velocity, spring, events. With viscous loss t_c is half of
-        the contact, and both forces jump at contact, as the dashpots act at once.
+        time in t_c, normal, friction_force, velocity, spring, events. With viscous loss t_c is half
+        of the contact, and both forces jump at contact, as the dashpots act at once.
 
     Examples
     --------

@@ -18,8 +18,8 @@ class NoncollinearHistory(NamedTuple):
     ----------
     time : ndarray, shape (n,)
         [s], from 0 to separation.
-    normal_force, friction : ndarray, shape (n,)
-        F2 and F1 [N]; friction is positive where it opposes a positive tangential velocity.
+    normal_force, friction_force : ndarray, shape (n,)
+        F2 and F1 [N]; F1 is positive where it opposes a positive tangential velocity.
     tangential, normal : ndarray, shape (n,)
         Velocity of the contact point [m/s]; normal > 0 is approach.
     compression, spring : ndarray, shape (n,)
@@ -38,7 +38,7 @@ class NoncollinearHistory(NamedTuple):
 
     time: Array
     normal_force: Array
-    friction: Array
+    friction_force: Array
     tangential: Array
     normal: Array
     compression: Array

@@ -49,7 +49,7 @@ class Path(NamedTuple):
     ----------
     time : ndarray, shape (steps + 1, n)
         In that of compression.
-    normal, friction : ndarray, shape (steps + 1, n)
+    normal, friction_force : ndarray, shape (steps + 1, n)
         Over the largest normal force, and mu times that.
     velocity, radius, stick_radius : ndarray, shape (steps + 1, n)
         The radii over the largest radius of contact.
@@ -59,7 +59,7 @@ class Path(NamedTuple):
 
     time: Array
     normal: Array
-    friction: Array
+    friction_force: Array
     velocity: Array
     radius: Array
     stick_radius: Array
@@ -200,7 +200,7 @@ def contact(
     """One contact, its arguments of shape (1,): columns of `Path` up to the radius of stick."""
     fine = refinement.settled_path(
         lambda steps: path(x, beta, zeta2, e, kind, steps),
-        (Path._fields.index("friction"), Path._fields.index("velocity")),
+        (Path._fields.index("friction_force"), Path._fields.index("velocity")),
         (x, beta, zeta2),
         kind(e).steps_needed(beta, zeta2),
         tolerance,
@@ -215,9 +215,9 @@ def _summary(impacts: Path) -> Solved:
     How near one gross slip more or less is, is not known here: 1 stands for it. So only a change of
     the count tells `refinement.refine` that a gross slip came or went.
     """
-    size = np.abs(impacts.friction)
+    size = np.abs(impacts.friction_force)
     gross = (size >= GROSS * impacts.normal)[1:-1]
     slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
-    counts = np.stack([slips, refinement.sign_changes(impacts.friction)])
+    counts = np.stack([slips, refinement.sign_changes(impacts.friction_force)])
     values = np.stack([impacts.velocity[-1], impacts.peak, impacts.work])
     return values, counts, np.ones(slips.size)

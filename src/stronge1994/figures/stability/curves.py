@@ -115,7 +115,7 @@ def _balances(
     if events is None or work is None or np.isnan(dissipation):
         return 1.0, 1.0
     gap = work - dissipation
-    excess = np.max([abs(event.friction) - event.normal for event in events], initial=0.0)
+    excess = np.max([abs(event.friction_force) - event.normal for event in events], initial=0.0)
     excess = np.nan_to_num(excess, nan=1.0)
     # For e = 0 the tangential spring loses energy too.
     return excess, 0.0 if e == 0 or abs(gap) <= FLOOR else min(1.0, float(abs(gap)) / size)
