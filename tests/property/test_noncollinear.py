@@ -131,10 +131,10 @@ def hard_impacts():
     """Masses near singular ones, friction so large that it slips last at N = 1/mu, many phases."""
     rng = np.random.default_rng(9)
     singular = draw(rng, 400)
-    share = np.sqrt(1 - 10 ** rng.uniform(-14.5, 0, 400))
+    share = np.sqrt(1 - 10 ** rng.uniform(-7, 0, 400))
     singular[2] = np.sign(singular[2]) * share * np.sqrt(singular[1])
     rough = [
-        np.stack(np.broadcast_arrays(v1, 1.75, coupling, 10.0 ** np.arange(1, 50), 0.6, zeta2))
+        np.stack(np.broadcast_arrays(v1, 1.75, coupling, 10.0 ** np.arange(1, 13), 0.6, zeta2))
         for v1, coupling, zeta2 in ((2.0, 0.65, 1.21), (-1.5, -0.74, 20.0))
     ]
     others = [

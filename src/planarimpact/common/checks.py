@@ -20,6 +20,8 @@ LEAST_INCIDENCE = 1e-100
 # Largest error of the length of a normal that is taken for one of rounding, float32 too: 1e-6, with
 # room for the rounding of the length itself.
 LENGTH_ERROR = 1.000001e-6
+# Largest frequency of stick over that of the normal element: a contact has thousands of phases.
+LARGEST_FREQUENCY = 1e4
 # Largest count of samples, points or steps: tables still fit into memory, and so many steps take a
 # few minutes.
 MOST = 10_000_000
@@ -185,6 +187,29 @@ def stiffness_ratio(value: ArrayLike) -> Array:
     """Check zeta^2 > 0; its limit 0, no tangential compliance, is `planarimpact.rigid`."""
     rule = "finite numbers above 0 (for no tangential compliance use planarimpact.rigid)"
     return checked("stiffness_ratio", value, rule, 0, open_low=True)
+
+
+def tangential_frequency(mass_ratio: Array, stiffness_ratio: Array) -> None:
+    """Refuse a stiffness ratio that is too small beside the mass ratio.
+
+    Examples
+    --------
+    >>> tangential_frequency(np.array(4.0), np.array(1e-9))
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: stiffness_ratio = 1e-09: allowed are numbers from 4e-08, for \
+frequencies omega/Omega = sqrt(mass_ratio/stiffness_ratio) up to 10000 (for no tangential \
+compliance use a rigid contact)
+    """
+    least = mass_ratio / LARGEST_FREQUENCY**2
+    stiff = stiffness_ratio < least
+    if stiff.any():
+        raise InputError(
+            f"stiffness_ratio = {float(stiffness_ratio[stiff][0])}: allowed are numbers from "
+            f"{float(least[stiff][0]):g}, for frequencies omega/Omega = sqrt(mass_ratio/"
+            f"stiffness_ratio) up to {LARGEST_FREQUENCY:g} (for no tangential compliance use a "
+            "rigid contact)"
+        )
 
 
 def restitution(value: ArrayLike) -> Array:

@@ -50,8 +50,8 @@ TERMS, REACH = 24, 2.0
 TIE, DECIDING = 1e-13, 8
 # Contacts that take a step together: their series fit a cache.
 BLOCK = 1024
-# A contact that takes more steps is given up; omega/Omega = 1e4 needs half of them.
-MOST_STEPS = 100_000
+# A contact that takes more steps is given up; one with omega/Omega = 1e4 takes some 15 000.
+MOST_STEPS = 40_000
 # No step is longer than that of this rate.
 SLOWEST = 0.1
 # Steps of a march, the relative step that ends it, and what no divisor is less than.
@@ -107,7 +107,7 @@ class Passed(NamedTuple):
     @classmethod
     def nothing(cls, states: int, n: int) -> Self:
         """Before a phase."""
-        return cls(*np.zeros((3, n)), np.zeros((states, n)))
+        return cls(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((states, n)))
 
 
 class Step(NamedTuple):

@@ -21,7 +21,8 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common.arrays import Array, Booleans, Integers
-from planarimpact.phases import Order, Passed, Step, follow
+from planarimpact.phases import Passed
+from planarimpact.phases.runs import Order
 
 N, Y, F, Q = range(4)  # states
 # Contacts this near to the limit of initial slip start in stick: the loop decides on ties.

@@ -46,7 +46,7 @@ def damping(restitution: Array) -> tuple[Array, Array]:
     --------
     >>> tau, largest = damping(np.array([0.1, 0.5]))
     >>> tau.round(6).tolist(), largest.round(6).tolist()
-    ([2.301586, 0.510551], [2.301586, 0.767176])
+    ([2.486376, 0.510551], [2.486376, 0.810367])
     """
     goal = -np.log(restitution) / 2
 
