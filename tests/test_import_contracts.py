@@ -14,8 +14,7 @@ SRC = Path(__file__).parents[1] / "src"
 # Codes that are compared with the solver, and so share nothing with it.
 APART = "tests.reference_solutions"
 
-# The solver. Models of contact do not know each other, but noncollinear asks lumped which losses
-# there are; nothing here knows the reproduction.
+# The solver. Models of contact do not know each other; nothing here knows the reproduction.
 SOLVER = {
     "common": "",
     "normal_impact": "common",
@@ -23,12 +22,12 @@ SOLVER = {
     "lumped": "common",
     "continuum": "common normal_impact",
     "bodies": "common normal_impact",
-    "noncollinear": "common bodies lumped",
+    "noncollinear": "common bodies",
     "spheres": "common normal_impact continuum",
     "models": "common normal_impact rigid lumped continuum spheres",
     "export": "planarimpact common normal_impact collision spheres",
     "fit": "common normal_impact bodies continuum spheres models",
-    "collision": "common normal_impact bodies continuum models spheres",
+    "collision": "common normal_impact bodies continuum spheres",
     "scene": "common bodies collision pandas",
     "__init__": (
         "planarimpact common normal_impact rigid lumped continuum bodies noncollinear spheres"

@@ -21,7 +21,7 @@ from planarimpact import (
     lumped,
     models,
 )
-from planarimpact.common import checks
+from planarimpact.common import checks, losses
 from planarimpact.common.arrays import ArrayLike
 from planarimpact.common.results import History, Rebound, Regime
 from planarimpact.continuum import ContinuumHistory
@@ -164,7 +164,7 @@ def _history(options: argparse.Namespace) -> None:
         result = continuum.history(x, **groups, tolerance=options.tolerance, loss=loss or None)
     else:
         _refuse_ignored(options, ["tolerance"], "the lumped model is solved to rounding")
-        loss = loss or "hysteretic"  # at e = 1 all are the same
+        loss = loss or lumped.LOSSES[0]  # at e = 1 all are the same
         result = lumped.history(x, **groups, samples=options.samples, loss=loss)
     _print(_with_units(result) | _model_and_loss(options, len(result.time)))
 
@@ -263,7 +263,7 @@ def _errors(groups: dict[str, float], loss: str | None) -> dict[str, ArrayLike]:
     """Errors of every model against the continuum, and where a measurement can show them."""
     checks.impact(0.0, *groups.values())
     reference = models.reference(groups["restitution"], loss)
-    loss = loss or continuum.VISCOUS  # at e = 1 both losses have the same continuum
+    loss = loss or losses.VISCOUS.name  # at e = 1 both losses have the same continuum
     limit = continuum.slip_throughout_limit(**groups, loss=loss)
     x = np.linspace(0.0, float(limit), INCIDENCES)
     # A tenth of the default tolerance, so that the continuum itself has an error, too.

@@ -313,7 +313,7 @@ def answers_of_all_paths(pair, normal, velocity):
     """The answer to one impact alone, in an array, and for a row of a scene; or its refusal."""
     table = {"radius [m]": 0.01, "density [kg/m^3]": 7800.0, "young_modulus [Pa]": 207e9}
     table |= {"poisson_ratio": 0.3, "friction": pair.friction, "restitution": pair.restitution}
-    table |= {"loss": "plastic" if pair.plastic else "viscous"}
+    table |= {"loss": pair.loss}
     for axis, n, v in zip("xyz", normal, velocity, strict=True):
         table |= {f"normal_{axis}": n, f"velocity_{axis} [m/s]": v, f"spin_{axis} [rad/s]": 0.0}
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, continuum, lumped
-from planarimpact.common import sliding
+from planarimpact.common import losses, sliding
 from planarimpact.continuum import inelastic, tangential_motion
 from planarimpact.continuum.micro_slip import ElasticSprings
 from planarimpact.normal_impact import hertz
@@ -170,7 +170,7 @@ HARD = [
 
 def fine(x, beta, zeta2, e, loss):
     """Velocity and peak friction with many steps, extrapolated, and how far that moved last."""
-    motion = inelastic.MOTIONS[loss]
+    motion = inelastic.MOTIONS[losses.SPHERES[loss]]
     found = (inelastic.path(x, beta, zeta2, e, motion, steps) for steps in (256, 512, 1024))
     return extrapolated([np.stack([one.velocity[-1], one.peak]) for one in found])
 
@@ -261,7 +261,7 @@ def test_the_error_falls_smoothly_with_the_square_of_the_steps(loss):
     """What blurs events within a step converges all the same, but does not extrapolate."""
     x = np.linspace(0.2, 4.2, 41)
     groups = np.full((3, x.size), [[3.5], [1.21], [0.6]])
-    motion = inelastic.MOTIONS[loss]
+    motion = inelastic.MOTIONS[losses.SPHERES[loss]]
     found = [inelastic.path(x, *groups, motion, n).velocity[-1] for n in (128, 256, 512)]
     # Found 2e-5. An edge with its whole width has 9e-5, slip that ends unseen within steps 1.4e-4.
     assert extrapolated(found)[1].max() < 4e-5

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from planarimpact import ConvergenceError, Event, EventKind, Regime, lumped, rigid
-from planarimpact.lumped import losses, slip_onset, stick_slip
+from planarimpact.common import losses
+from planarimpact.lumped import by_loss, slip_onset, stick_slip
 from tests.reference_solutions import high_precision
 
 EXTREMES = Path(__file__).parents[2] / "data/lumped_extremes/impacts.csv"
@@ -36,8 +37,8 @@ def same(one, other):
 def test_batches_do_not_depend_on_their_size(monkeypatch):
     groups = drawn(500)
     whole = {loss: lumped.rebound(*groups, loss=loss) for loss in LOSSES}
-    for kind in (losses.Hysteretic, losses.Viscous):
-        monkeypatch.setattr(kind, "chunk", 70)
+    for name in ("CHUNK", "CHUNK_WITH_DASHPOTS"):
+        monkeypatch.setattr(by_loss, name, 70)
     for loss in LOSSES:
         same(lumped.rebound(*groups, loss=loss), whole[loss])
 
@@ -93,9 +94,10 @@ def test_a_history_is_that_of_its_rebound(groups, x, loss):
     assert share == pytest.approx(result.peak_friction, abs=1e-5)
     assert (np.diff(contact.time) >= 0).all() and contact.time[0] == 0
     _, zeta2, e = groups
-    assert contact.time[-1] == (2 if loss == "viscous" else 1 + e)
-    if loss != "viscous":
-        stiffness = zeta2 if loss == "hysteretic" else e * e * zeta2
+    law = losses.LUMPED[loss]
+    assert contact.time[-1] == (2 if law.dashpots else 1 + e)
+    if not law.dashpots:
+        stiffness = law.stiffness_ratio(zeta2, e)
         np.testing.assert_allclose(contact.spring, stiffness * contact.friction_force)
         shares = 2**1010 * np.array([x, groups[0], zeta2])  # their squares are no numbers
         large = lumped.history(*shares, e, samples=2000, loss=loss)

@@ -135,7 +135,7 @@ def test_losses_may_be_a_column_of_pandas(kind):
         "restitution": [0.8, 1.0, 0.8],
         "loss": pd.Series(["plastic", None, "viscous"], dtype=kind),
     }
-    assert Pair(STEEL, friction=0.3, **groups).plastic.tolist() == [True, False, False]
+    assert Pair(STEEL, friction=0.3, **groups).loss.tolist() == ["plastic", "none", "viscous"]
     wanted = spheres.rebound(
         2.0, restitution=[0.8, 1.0, 0.8], loss=["plastic", "viscous", "viscous"]
     )

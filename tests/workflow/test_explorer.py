@@ -380,7 +380,7 @@ def test_balls_have_the_numbers_of_their_presets_and_sources():
             own = dict(zip(("friction", "restitution", "radius"), own, strict=True))
             ball["state"] = own | ball["state"]
             assert zeta2 == pytest.approx(given.pair.stiffness_ratio, abs=1e-3)
-            assert state["loss"] == ("plastic" if given.pair.plastic else "viscous")
+            assert state["loss"] == given.pair.loss
         # Of the chart of materials: the row that name and source name.
         if "data/cornell1999" in (words := f"{ball['name']}, {ball.get('source')}"):
             (row,) = [one for one in table_files.read("cornell1999/pairs") if one["pair"] in words]

@@ -16,8 +16,10 @@ from planarimpact.bodies.quantities import OutOfRange, all_positive, in_range, q
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Number
 from planarimpact.common.checks import checked, not_negative, positive
-from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, LOSSES, kelvin_voigt, yielding
+from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
+from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt, yielding
 
+LAWS = {VISCOUS: kelvin_voigt, PLASTIC: yielding}
 # Relative rounding error of a relaxation time that `relaxation_time` returns.
 ROUNDING = 1e-12
 
@@ -230,7 +232,7 @@ def peak_force(
     >>> [round(float(peak_force(**steel, restitution=0.5, loss=loss))) for loss in losses]
     [1347, 960]
     """
-    law = LAWS[checks.loss(loss, LOSSES)]
+    law = LAWS[SPHERES[checks.loss(loss, SPHERES)]]
     e, v2, m2, modulus, radius = _checked_impact(
         restitution, speed, mass, effective_modulus, effective_radius
     )

@@ -14,6 +14,7 @@ from planarimpact.bodies import Body
 from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.losses import CODES, PLASTIC
 from planarimpact.continuum import inelastic
 from planarimpact.normal_impact import yielding
 
@@ -49,7 +50,7 @@ class Impacts(NamedTuple):
     v2: Array  # normal velocity of approach [m/s]; the bodies meet where it is above 0
     friction: Array
     restitution: Array
-    plastic: Booleans  # else viscous; no meaning where e = 1
+    loss_code: Integers  # of `losses.NAMES`, -1 where e = 1
     m2: Array  # normal effective mass [kg]
     mass_ratio: Array
     stiffness_ratio: Array
@@ -104,6 +105,7 @@ def impacts(
         sideways = relative - along * normal
         v1, v2 = np.hypot(np.hypot(*sideways[:2]), sideways[2]), -along
         _, m2 = bodies.effective_masses(body, other)
+        restitution = _restitution(pair, body, other, m2, v2)
         return Impacts(
             body,
             other,
@@ -114,8 +116,8 @@ def impacts(
             v1,
             v2,
             pair.friction,
-            _restitution(pair, body, other, m2, v2),
-            pair.plastic,
+            restitution,
+            np.where(restitution == 1, np.int8(-1), pair.loss_code),
             m2,
             bodies.mass_ratio(body, other),
             pair.stiffness_ratio,
@@ -129,12 +131,12 @@ def slides_throughout(impacts: Impacts) -> Booleans:
         groups = impacts.mass_ratio, impacts.stiffness_ratio, impacts.restitution
         slides = impacts.v1 >= sliding.limit_alike(*groups) * unit
         # Spheres that yield may slide from a larger incidence on, at e = 0 from none.
-        yields = np.flatnonzero(slides & impacts.plastic & (impacts.restitution < 1))
+        yields = np.flatnonzero(slides & (impacts.loss_code == CODES[PLASTIC]))
         known = yields[impacts.restitution[yields] >= yielding.LEAST_OF_LAW]
         slides[yields] = False
         if known.size:
             beta, zeta2, e = impacts.groups_of(known)
-            limit = inelastic.MOTIONS["plastic"](e).slides_from(beta, zeta2)
+            limit = inelastic.MOTIONS[PLASTIC](e).slides_from(beta, zeta2)
             slides[known] = impacts.v1[known] >= limit * unit[known]
     return slides
 

@@ -17,7 +17,7 @@ from planarimpact.bodies import Body
 from planarimpact.collision.mechanics import cross, dot
 from planarimpact.collision.methods import table_error
 from planarimpact.collision.pairs import PLAIN_LEAST, PLAIN_MOST, Pair
-from planarimpact.common import checks
+from planarimpact.common import checks, losses
 from planarimpact.common.results import Regime
 from planarimpact.normal_impact import kelvin_voigt, yielding
 from planarimpact.spheres import table
@@ -25,6 +25,7 @@ from planarimpact.spheres import table
 # The table has the incidence from which plastic impacts slide throughout with an error below 1 %.
 # Within it the functions of arrays know better.
 UNSURE = 0.01
+PLASTIC, NONE = losses.CODES[losses.PLASTIC], np.array(-1, np.int8)
 
 
 def collide(
@@ -57,7 +58,7 @@ def collide(
         return []
     m2 = 1 / (inverse + other_inverse)
     beta = m2 * (mobility + other_mobility)
-    plastic = bool(pair.plastic)
+    plastic = int(pair.loss_code) == PLASTIC
     if e != e:
         curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
         if not curvature:
@@ -100,7 +101,8 @@ def collide(
         _sum(other_spin, -other_turn, moment),
         impulse,
     )
-    return [*np.array(after), *np.array((x, e, error * unit)), regime, pair.plastic]
+    loss_code = pair.loss_code if e < 1 else NONE
+    return [*np.array(after), *np.array((x, e, error * unit)), regime, loss_code]
 
 
 @lru_cache(maxsize=4096)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.common.arrays import Array, ArrayLike, Booleans, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers, Numbers
 
 # Largest incidence and mass ratio: twice as much is still below the largest float64.
 LARGEST = 8e307
@@ -31,7 +31,7 @@ MOST = 10_000_000
 default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 
 # Texts of a loss that is not said, and of missing values.
-NO_LOSS = "", "None", "nan", "<NA>", "NaT"
+NO_LOSS = "", "none", "None", "nan", "<NA>", "NaT"
 _NUMBERS = int, float, np.integer, np.floating
 
 _DOWN = Context(prec=4, rounding=ROUND_DOWN)
@@ -236,7 +236,7 @@ def word(name: str, value: str, allowed: Collection[str]) -> str:
 loss = partial(word, "loss")
 
 
-def losses(value: Any, allowed: tuple[str, ...]) -> Array:
+def losses(value: Any, allowed: Collection[str]) -> Integers:
     """Check names of losses, one or an array: the place of each in `allowed`, -1 where it has none.
 
     None is said by an empty text, None, NaN or what pandas has where a value is missing.
@@ -244,7 +244,7 @@ def losses(value: Any, allowed: tuple[str, ...]) -> Array:
     Examples
     --------
     >>> losses(["plastic", None, "viscous"], ("viscous", "plastic")).tolist()
-    [1.0, -1.0, 0.0]
+    [1, -1, 0]
     """
     if _is_masked(value):
         loss(value, allowed)
@@ -252,7 +252,7 @@ def losses(value: Any, allowed: tuple[str, ...]) -> Array:
     if not (isinstance(value, np.ndarray) and value.dtype.kind == "U"):  # which needs no time
         cells = np.asarray(value, dtype=object)
         words = np.array([str(cell) for cell in cells.flat], dtype=str).reshape(cells.shape)
-    codes = np.where(np.isin(words, NO_LOSS), -1.0, -2.0)
+    codes = np.where(np.isin(words, NO_LOSS), np.int8(-1), np.int8(-2))
     for code, name in enumerate(allowed):
         codes[words == name] = code
     if (codes < -1).any():

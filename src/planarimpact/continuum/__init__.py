@@ -16,16 +16,16 @@ import numpy as np
 
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
 from planarimpact.common.results import Rebound
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.refinement import Unsolved as Unsolved
-from planarimpact.normal_impact import LOSSES as LOSSES
-from planarimpact.normal_impact import VISCOUS as VISCOUS
 from planarimpact.normal_impact import hertz
 
-# Below this restitution most contacts need more steps than are allowed.
-LEAST_RESTITUTION = 0.1
+# Names of the losses that spheres have.
+LOSSES = tuple(SPHERES)
+LEAST_RESTITUTION = max(VISCOUS.least_restitution, PLASTIC.least_restitution)
 # Default tolerances.
 ELASTIC_TOLERANCE, LOSSY_TOLERANCE = 1e-6, 1e-4
 
@@ -303,7 +303,7 @@ def _kind_of_motion(restitution: ArrayLike, loss: str | None) -> type[NormalMoti
     if loss is None:
         checks.require_loss(restitution, LOSSES)
         return None
-    found = inelastic.MOTIONS[checks.loss(loss, tuple(inelastic.MOTIONS))]
+    found = inelastic.MOTIONS[SPHERES[checks.loss(loss, SPHERES)]]
     allowed = f"numbers from {LEAST_RESTITUTION} to 1, with a loss"
     checks.checked("restitution", restitution, allowed, LEAST_RESTITUTION, 1)
     return found

@@ -20,10 +20,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import lumped
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.common.checks import ConvergenceError, InputError, finite, positive
+from planarimpact.common.losses import NONCOLLINEAR
 from planarimpact.common.results import Regime
 from planarimpact.noncollinear import rigid
 from planarimpact.noncollinear.configuration import (
@@ -134,9 +134,10 @@ def rebound(
         What takes the energy; needed where e < 1.
         "hysteretic", the paper's: the tangential stiffness is kappa/zeta^2.
         "unloading-stiffness": it is kappa/(e^2 zeta^2), as zeta^2 is a ratio of elastic stiffnesses
-        and the elastic one of the normal element is that of unloading, kappa/e^2; e above 0. There
-        is no viscous loss here: a normal dashpot would pull at the end of contact, and a coupled
-        contact that separates and closes again under such a force is not solved.
+        and the elastic one of the normal element is that of unloading, kappa/e^2; e above 0.
+        Every loss of `planarimpact.lumped` without dashpots is known here. With dashpots the normal
+        one would pull at the end of contact, and a coupled contact that separates and closes again
+        under such a force is not solved.
 
     Returns
     -------
@@ -333,18 +334,15 @@ def _checked(
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
         stiffness=positive("stiffness", stiffness),
     )
-    losses = tuple(name for name in lumped.LOSSES if name != "viscous")  # see `rebound`
     if loss is None:
-        checks.require_loss(restitution, losses)
-    else:
-        checks.loss(loss, losses)
-    if loss == "unloading-stiffness":
-        if not e.all():
-            raise InputError(
-                f"restitution = 0: with loss = '{loss}' allowed are numbers above 0 (for no "
-                "tangential compliance use noncollinear.rigid)"
-            )
-        zeta2 = e * (e * zeta2)
+        checks.require_loss(restitution, NONCOLLINEAR)
+        return v1, v2, mu, e, zeta2, *others
+    zeta2 = NONCOLLINEAR[checks.loss(loss, NONCOLLINEAR)].stiffness_ratio(zeta2, e)
+    if not zeta2[e == 0].all():
+        raise InputError(
+            f"restitution = 0: with loss = '{loss}' allowed are numbers above 0 (for no "
+            "tangential compliance use noncollinear.rigid)"
+        )
     return v1, v2, mu, e, zeta2, *others
 
 

@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from planarimpact.collision import LOSSES, RESTITUTION_FROM
+from planarimpact.collision import RESTITUTION_FROM
 from planarimpact.common import checks
 from planarimpact.common.arrays import LARGEST, SMALLEST, Array, Booleans
 from planarimpact.common.checks import InputError
+from planarimpact.common.losses import SPHERES
 
 if TYPE_CHECKING:
     import pandas as pd
 
+LOSSES = tuple(SPHERES)
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 

@@ -7,10 +7,8 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.collision import (
-    PLASTIC,
     RESTITUTION_FROM,
     TOLERANCE,
-    VISCOUS,
     mechanics,
     methods,
     model_form,
@@ -212,10 +210,7 @@ def _result(
     if "restitution" not in names:
         result |= {"restitution": impacts.restitution}
     if "loss" not in names:
-        viscous, plastic = (columns.LOSSES.index(loss) for loss in (VISCOUS, PLASTIC))
-        code = np.where(impacts.plastic, plastic, viscous)
-        code[impacts.restitution == 1] = -1  # none
-        result |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
+        result |= {"loss": pd.Categorical.from_codes(impacts.loss_code, columns.LOSSES)}
     models = list(dict.fromkeys(method.model for method in methods.METHODS))
     model = np.array([models.index(method.model) for method in methods.METHODS])[answers.place]
     # Without friction there is no force of it, also where the normal force is not known.

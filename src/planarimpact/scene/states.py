@@ -11,9 +11,10 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.bodies import Body, Material
-from planarimpact.collision import LOSSES, PLASTIC, RESTITUTION_FROM, Pair, mechanics
+from planarimpact.collision import RESTITUTION_FROM, Pair, mechanics
 from planarimpact.collision.mechanics import Impacts, State
 from planarimpact.common.arrays import LARGEST, Array
+from planarimpact.common.losses import CODES, SPHERES, VISCOUS
 from planarimpact.scene.columns import AXES, PLANE
 
 
@@ -53,12 +54,15 @@ def _peak_normal(impacts: Impacts, modulus: Array, radius: Array) -> Array:
     approaches = (impacts.v2 > 0) & np.isfinite(impacts.v2)  # others are refused later
     speed = np.where(approaches, impacts.v2, 1.0)
     peak = np.full(speed.size, np.nan)
-    for name in LOSSES:
-        which = known & (impacts.plastic == (name == PLASTIC))
+    code = np.where(
+        impacts.loss_code < 0, CODES[VISCOUS], impacts.loss_code
+    )  # at e = 1 any of them
+    for loss in SPHERES.values():
+        which = known & (code == CODES[loss])
         if which.any():
             # All impacts are computed, so that a refusal has the index of its row.
             e = np.where(which, impacts.restitution, 1.0)
-            force = bodies.peak_force(impacts.m2, speed, modulus, radius, e, name)
+            force = bodies.peak_force(impacts.m2, speed, modulus, radius, e, loss.name)
             peak = np.where(which, force, peak)
     return peak
 

@@ -32,14 +32,15 @@ import numpy as np
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import ConvergenceError
+from planarimpact.common.losses import LUMPED
 from planarimpact.common.results import EventKind, History, Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 from planarimpact.lumped.viscous.elements import Elements, alike
 from planarimpact.lumped.viscous.searches import Slip, Stick, phase_end, take
 
-# The range of the solver: a viscous element stops no body for good. In this range a contact has
+# The range of the solver, from the table of losses and here. In this range a contact has
 # some hundred half-waves of T at most, fewer than MOST_STICKS, and all products keep their digits.
-LEAST_RESTITUTION = 1e-3
+LEAST_RESTITUTION = LUMPED["viscous"].least_restitution
 LARGEST_MASS_RATIO = 1e6
 LEAST_SHARE, LARGEST_SHARE = 1e-4, 1e6  # of the stiffness ratio in the mass ratio
 MOST_STICKS = 1000
