@@ -10,15 +10,11 @@ from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array
 from planarimpact.common.losses import Loss
 from planarimpact.common.results import History
-from planarimpact.lumped import hysteretic, viscous
-from planarimpact.lumped.extremes import scaling
+from planarimpact.lumped import dashpots, histories, stick_slip
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 
-# Largest omega/Omega of stick in compression in a history: rounding moves its friction by 1e-6.
-LARGEST_FREQUENCY = 1e9
-# Impacts solved together: few enough for the cache, enough to hide Python's overhead. Those with
-# dashpots are of up to four kinds, each of them solved together.
-CHUNK, CHUNK_WITH_DASHPOTS = 32768, 131072
+# Impacts solved together: few enough for the cache, enough to hide Python's overhead.
+CHUNK = 32768
 
 
 def slides_from(loss: Loss, beta: Array, zeta2: Array, e: Array) -> Array:
@@ -30,59 +26,56 @@ def slides_from(loss: Loss, beta: Array, zeta2: Array, e: Array) -> Array:
 
 def solve(loss: Loss, impacts: Impacts) -> Outcome:
     """Outcome of impacts x >= 0, arrays of shape (n,), chunk by chunk."""
-    size, chunk = impacts.x.size, CHUNK_WITH_DASHPOTS if loss.dashpots else CHUNK
+    size = impacts.x.size
     velocity, peak, work = (np.empty(size) for _ in range(3))
     outcome = Outcome(velocity, peak, work, np.empty(size, np.uint8))
-    for start in range(0, size, chunk):
-        part = slice(start, start + chunk)
+    for start in range(0, size, CHUNK):
+        part = slice(start, start + CHUNK)
         solved = _solve_chunk(loss, Impacts(*(group[part] for group in impacts)))
         for field, values in zip(outcome, solved, strict=True):
             field[part] = values
     return outcome
 
 
-def history(loss: Loss, mirror: float, impacts: Impacts, samples: int) -> History:
+def history(loss: Loss, mirror: float, impact: Impacts, samples: int) -> History:
     """One contact, its arrays of shape (1,); `mirror` is the sign of the incidence."""
-    if _has_dashpots(loss, impacts):
-        return viscous.history(mirror, impacts, samples)
-    element = _element(loss, impacts)
-    x, beta, zeta2, e = (float(group[0]) for group in element)
-    if 0 < x < beta and np.sqrt(beta) > LARGEST_FREQUENCY * np.sqrt(zeta2):
-        raise checks.InputError(
-            f"restitution = {e!r}, stiffness_ratio = {float(impacts.zeta2[0])!r}: in a history"
-            f" allowed are tangential frequencies omega/Omega up to {LARGEST_FREQUENCY:g} (for "
-            "no tangential compliance use planarimpact.rigid)"
-        )
-    return hysteretic.history(mirror, element, samples)
+    if _has_dashpots(loss, impact):
+        return histories.of_dashpots(mirror, impact, samples)
+    return histories.of_springs(mirror, _element(loss, impact), samples)
 
 
-def friction_work(loss: Loss, impacts: Impacts) -> float:
+def friction_work(loss: Loss, impact: Impacts) -> float:
     """Work of friction in one contact, computed in another way than by `solve`, if possible."""
-    if _has_dashpots(loss, impacts):  # there is the closed form alone
-        return float(viscous.solve(impacts).dissipation[0])
-    return hysteretic.friction_work(_element(loss, impacts))
+    if _has_dashpots(loss, impact):
+        return float(dashpots.solve(impact).dissipation[0])
+    return histories.friction_work(_element(loss, impact))
 
 
 def _solve_chunk(loss: Loss, impacts: Impacts) -> Outcome:
     """Outcome of impacts, arrays of shape (n,), all at once."""
     if not loss.dashpots:
-        return scaling.solve(_element(loss, impacts))
+        return stick_slip.solve(_element(loss, impacts))
     damped = impacts.e < 1
+    dashpots.check_range(impacts.take(np.flatnonzero(damped)), loss.least_restitution)
     if damped.all():
-        return viscous.solve(impacts)
-    outcome = scaling.solve(impacts)
+        return dashpots.solve(impacts)
+    outcome = stick_slip.solve(impacts)
     if damped.any():
-        solved = viscous.solve(impacts.take(np.flatnonzero(damped)))
+        solved = dashpots.solve(impacts.take(np.flatnonzero(damped)))
         for field, values in zip(outcome, solved, strict=True):
             field[damped] = values
     return outcome
 
 
-def _has_dashpots(loss: Loss, impacts: Impacts) -> bool:
-    """Whether one contact is one of dashpots."""
-    return loss.dashpots and bool(impacts.e[0] < 1)
+def _has_dashpots(loss: Loss, impact: Impacts) -> bool:
+    """Whether one contact is one of dashpots, in their range."""
+    if loss.dashpots:
+        dashpots.check_range(impact, loss.least_restitution)
+    return loss.dashpots and bool(impact.e[0] < 1)
 
 
 def _element(loss: Loss, impacts: Impacts) -> Impacts:
     """Impacts on the paper's element that stands for this loss."""
-    return impacts._replace(zeta2=loss.stiffness_ratio(impacts.zeta2, impacts.e))
+    zeta2 = loss.stiffness_ratio(impacts.zeta2, impacts.e)
+    checks.tangential_frequency(impacts.beta, zeta2)
+    return impacts._replace(zeta2=zeta2)

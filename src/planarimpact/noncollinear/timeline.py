@@ -67,7 +67,7 @@ def timeline(
         """Of time: e on the line of unloading."""
         return e if phase.unloading and not phase.side else 1.0
 
-    for phase, time, z in runs(steps, samples, unit):
+    for phase, time, z in runs(steps, np.linspace(0.0, 1.0, samples), unit):
         if phase.side:  # held closed: the mean of N, and no approach
             friction, velocity = phase.side * z[0], phase.side * z[2]
             normal, approach = coupling * friction, np.zeros_like(time)

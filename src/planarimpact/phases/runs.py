@@ -19,8 +19,8 @@ class Run(NamedTuple):
     z: Array
 
 
-def runs(steps: list[Step], samples: int, scale: Callable[[Any], float]) -> list[Run]:
-    """The phases of a contact, in order, at `samples` instants evenly spread over it.
+def runs(steps: list[Step], shares: Array, scale: Callable[[Any], float]) -> list[Run]:
+    """The phases of a contact, in order, at these shares, 0 to 1, of its time.
 
     Both ends of each phase come on top, so an event is there twice, before and after it. `scale` is
     the unit of time of a phase. Phases that take no time are left out.
@@ -31,7 +31,7 @@ def runs(steps: list[Step], samples: int, scale: Callable[[Any], float]) -> list
     ends = np.cumsum(
         [scale(phase) * span[-1] for (phase, _), span in zip(phases, spans, strict=True)]
     )
-    grid, start, found = np.linspace(0.0, ends[-1], samples), 0.0, []
+    grid, start, found = shares * ends[-1], 0.0, []
     for (phase, own), span, end in zip(phases, spans, ends, strict=True):
         inside = grid[(grid > start) & (grid < end)]
         # In its own unit of time a phase keeps the digits of a short one.

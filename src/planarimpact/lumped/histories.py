@@ -1,0 +1,85 @@
+"""One lumped contact followed by `planarimpact.phases`: its history, and the work of friction."""
+
+import numpy as np
+
+from planarimpact.common.results import EventKind, History
+from planarimpact.lumped.stick_slip import Impacts
+from planarimpact.phases import Step, closed, follow, viscous
+from planarimpact.phases.off_centre import F, N, OffCentre, Phase, Q
+from planarimpact.phases.runs import runs
+
+
+def of_springs(mirror: float, impact: Impacts, samples: int) -> History:
+    """On the paper's springs; `mirror` is the sign of x."""
+    _, steps = _followed(impact)
+    e = float(impact.e[0])
+
+    def unit(phase: Phase) -> float:
+        """Of time, in 1/Omega."""
+        return e if phase.unloading else 1.0
+
+    found = runs(steps, np.linspace(0.0, 1.0, samples), unit)
+    compression = max(run.time[-1] for run in found if not run.phase.unloading)
+    restitution = max(found[-1].time[-1] - compression, 0.0)
+    columns, events = [], []
+    before = None
+    for phase, time, z in found:
+        time = time / compression
+        if phase.unloading:
+            time = 1 + e * ((time - 1) * (compression / restitution))
+        states = z[N], mirror * z[F], mirror * z[Q], mirror * impact.zeta2 * z[F]
+        columns.append(np.stack([time, *states]))
+        if before and phase.unloading and not before.unloading:
+            events.append((EventKind.MAXIMUM_COMPRESSION, columns[-1][:, 0]))
+        if not (before and before.slips == phase.slips):
+            events.append((_kind(phase.slips), columns[-1][:, 0]))
+        before = phase
+    if e == 0:
+        events.append((EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1]))
+    return History.joined(columns, events)
+
+
+def of_dashpots(mirror: float, impact: Impacts, samples: int) -> History:
+    """On two Kelvin-Voigt elements, e < 1; `mirror` is the sign of x."""
+    x, beta, zeta2, e = impact
+    tau, _ = viscous.damping(e)
+    contact = viscous.Viscous(x, beta, zeta2, tau)
+    steps: list[Step] = []
+    follow(contact, contact.z, steps=steps)
+    # The middle of the contact is where compression is largest.
+    found = runs(steps, np.union1d(np.linspace(0.0, 1.0, samples), 0.5), lambda _: 1.0)
+    half = found[-1].time[-1] / 2
+    columns, events = [], []
+    for side, time, z in found:
+        normal = z[viscous.U] + tau * z[viscous.V]
+        friction, spring = side * normal, side * zeta2 * z[viscous.U] + z[viscous.S]
+        if not side:
+            friction = (spring + tau * z[viscous.W]) / zeta2
+        tangential = (mirror * field for field in (friction, z[viscous.W], spring))
+        columns.append(np.stack([time / half, normal, *tangential]))
+        events.append((_kind(bool(side)), columns[-1][:, 0]))
+    middle = min((block for block in columns), key=lambda block: np.abs(block[0] - 1).min())
+    place = np.abs(middle[0] - 1).argmin()
+    middle[0, place] = 1.0
+    events.append((EventKind.MAXIMUM_COMPRESSION, middle[:, place]))
+    return History.joined(columns, sorted(events, key=lambda event: event[1][0]))
+
+
+def friction_work(impact: Impacts) -> float:
+    """Work of friction on the paper's springs, integrated over the phases of slip."""
+    contact, _ = _followed(impact)
+    return float((contact.work - impact.zeta2 * contact.z[F] ** 2 / 2)[0])
+
+
+def _followed(impact: Impacts) -> tuple[OffCentre, list[Step]]:
+    """One contact on springs, friction in units of mu, followed to its end, and its steps."""
+    x, beta, zeta2, e = impact
+    contact = OffCentre(x, beta, np.zeros(1), zeta2, np.ones(1), e)
+    steps: list[Step] = []
+    closed.solve(contact, steps)
+    return contact, steps
+
+
+def _kind(slips: bool) -> EventKind:
+    """The event where a phase starts."""
+    return EventKind.SLIP if slips else EventKind.STICK
