@@ -87,7 +87,7 @@ def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
     loss = None if e == 1 else style
     theirs = continuum.history(x, *SOLID, e, loss=loss, tolerance=TOLERANCE)
     assert abs(time[-1] - theirs.time[-1]) < 1e-3
-    names = "normal", "friction", "velocity", "contact_radius"
+    names = "normal", "friction_force", "velocity", "contact_radius"
     for name, column in zip(names, ours, strict=True):
         wanted = np.interp(time, theirs.time, getattr(theirs, name))
         # The contact of a plastic body parts with an infinite slope of its radius.
