@@ -78,10 +78,10 @@ class Pair:
     ... )
     >>> table[[0, 1], [1, 1]].friction.tolist()
     [0.3, 0.4]
-    >>> Pair(steel, friction=0.1, restitution=0.8)
+    >>> Pair(steel, friction=0.1, restitution=0.8)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.8: below 1 it needs a loss: choose viscous, plastic
+    planarimpact.InputError: restitution = 0.8: below 1 it needs a loss: choose viscous...
     """
 
     friction: Array
