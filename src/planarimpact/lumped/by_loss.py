@@ -7,7 +7,7 @@ bits.
 import numpy as np
 
 from planarimpact.common import checks, sliding
-from planarimpact.common.arrays import Array
+from planarimpact.common.arrays import Array, Booleans
 from planarimpact.common.losses import Loss
 from planarimpact.common.results import History
 from planarimpact.lumped import hysteretic, viscous
@@ -43,7 +43,7 @@ def solve(loss: Loss, impacts: Impacts) -> Outcome:
 
 def history(loss: Loss, mirror: float, impacts: Impacts, samples: int) -> History:
     """One contact, its arrays of shape (1,); `mirror` is the sign of the incidence."""
-    if _has_dashpots(loss, impacts):
+    if _damped(loss, impacts)[0]:
         return viscous.history(mirror, impacts, samples)
     element = _element(loss, impacts)
     x, beta, zeta2, e = (float(group[0]) for group in element)
@@ -58,19 +58,17 @@ def history(loss: Loss, mirror: float, impacts: Impacts, samples: int) -> Histor
 
 def friction_work(loss: Loss, impacts: Impacts) -> float:
     """Work of friction in one contact, computed in another way than by `solve`, if possible."""
-    if _has_dashpots(loss, impacts):  # there is the closed form alone
+    if _damped(loss, impacts)[0]:  # there is the closed form alone
         return float(viscous.solve(impacts).dissipation[0])
     return hysteretic.friction_work(_element(loss, impacts))
 
 
 def _solve_chunk(loss: Loss, impacts: Impacts) -> Outcome:
     """Outcome of impacts, arrays of shape (n,), all at once."""
-    if not loss.dashpots:
-        return scaling.solve(_element(loss, impacts))
-    damped = impacts.e < 1
+    damped = _damped(loss, impacts)
     if damped.all():
         return viscous.solve(impacts)
-    outcome = scaling.solve(impacts)
+    outcome = scaling.solve(_element(loss, impacts))
     if damped.any():
         solved = viscous.solve(impacts.take(np.flatnonzero(damped)))
         for field, values in zip(outcome, solved, strict=True):
@@ -78,9 +76,9 @@ def _solve_chunk(loss: Loss, impacts: Impacts) -> Outcome:
     return outcome
 
 
-def _has_dashpots(loss: Loss, impacts: Impacts) -> bool:
-    """Whether one contact is one of dashpots."""
-    return loss.dashpots and bool(impacts.e[0] < 1)
+def _damped(loss: Loss, impacts: Impacts) -> Booleans:
+    """Which impacts dashpots damp."""
+    return impacts.e < (1 if loss.dashpots else 0)
 
 
 def _element(loss: Loss, impacts: Impacts) -> Impacts:
