@@ -50,10 +50,9 @@ class Pair:
     ----------
     friction, stiffness_ratio, effective_modulus, restitution, relaxation_time, yield_pressure
         As above, arrays of one shape; NaN where the pair does not have it.
-    loss_code : ndarray of int
-        Place of the loss in `planarimpact.common.losses.NAMES`, -1 where none is said.
-    loss : ndarray of str
-        Its name, "none" where none is said.
+    loss, loss_code : ndarray of str, ndarray of int
+        Name of the loss, and its place in `planarimpact.common.losses.NAMES`; "none" and -1 where
+        none is said.
     shape : tuple of int
 
     Raises
@@ -78,10 +77,10 @@ class Pair:
     ... )
     >>> table[[0, 1], [1, 1]].friction.tolist()
     [0.3, 0.4]
-    >>> Pair(steel, friction=0.1, restitution=0.8)
+    >>> Pair(steel, friction=0.1, restitution=0.8)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.8: below 1 it needs a loss: choose viscous, plastic
+    planarimpact.InputError: restitution = 0.8: below 1 it needs a loss: choose viscous...
     """
 
     friction: Array
@@ -222,8 +221,7 @@ def _of_law(arrays: dict[str, Any]) -> Integers:
     """Codes of the losses, those of laws too; refuse another one, or none below e = 1."""
     restitution, codes = arrays["restitution"], arrays["loss_code"]
     missing = (restitution < 1) & (codes < 0)
-    if missing.any():
-        checks.require_loss(np.where(missing, restitution, 1.0), SPHERES)
+    checks.require_loss(np.where(missing, restitution, 1.0), SPHERES)
     for loss in SPHERES.values():
         has = ~np.isnan(arrays[loss.material])
         others = NAMES[codes[has & (codes >= 0) & (codes != CODES[loss])]]

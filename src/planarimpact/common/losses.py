@@ -96,8 +96,7 @@ LOSSES = (
         material="yield_pressure",
     ),
 )
-# By name. Off the centre's normal a dashpot would pull at the end of contact, and a contact that
-# separates and closes again under such a force is not solved.
+# By name; see `noncollinear.rebound` on dashpots.
 LUMPED = {loss.name: loss for loss in LOSSES if loss.model == "lumped"}
 NONCOLLINEAR = {name: loss for name, loss in LUMPED.items() if not loss.dashpots}
 SPHERES = {loss.name: loss for loss in LOSSES if loss.model == "continuum"}

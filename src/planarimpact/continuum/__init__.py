@@ -82,9 +82,8 @@ def rebound(
     restitution : array_like
         1, the contact is elastic; or from 0.1, with a `loss`.
     loss : str, optional
-        What takes the energy where e < 1. "viscous": Kelvin-Voigt spheres with one relaxation time
-        in shear and compression. "plastic": Thornton's elastic-plastic sphere, in which shear flows
-        while metal yields.
+        What takes the energy where e < 1: "viscous", alike in shear and compression, or "plastic",
+        Thornton's sphere, in which shear flows while metal yields.
     tolerance : array_like, optional
         Largest error allowed in velocity (mu v2(0)) and peak friction (mu F2max of this impact), by
         the solver's own estimate; above 0. It broadcasts with the groups. By default 1e-6, with a

@@ -123,11 +123,8 @@ def slip_throughout_limit(
     it. The paper prints (1 + e) beta (heading of Eq. 26), but by its own conditions for the end of
     the first slip, Eqs 17 to 20, that slip does not end above the value given here.
 
-    With the loss "unloading-stiffness" e^2 zeta^2 stands for zeta^2, which gives
-    max(e^2 zeta^2, beta + e max(0, beta - zeta^2)). With viscous loss it is
-    max(zeta^2, beta + e (beta - zeta^2)). The two are the same for zeta^2 <= beta. For a softer
-    tangential element, viscous contact starts in stick up to zeta^2, and the other up to
-    e^2 zeta^2 only; from beta on that slip lasts.
+    The stiffness ratio of the loss stands for zeta^2: e^2 zeta^2 with "unloading-stiffness". With
+    dashpots it is max(zeta^2, beta + e (beta - zeta^2)).
 
     Arguments and errors: `planarimpact.lumped`. With viscous loss the ratios may have any size
     here, and the limit at e = 0 is that of small e.

@@ -1,13 +1,12 @@
-"""Which solver has a loss: the paper's element, or two Kelvin-Voigt elements with dashpots.
+"""Which solver has a loss: the paper's springs, or two Kelvin-Voigt elements with dashpots.
 
-At e = 1 nothing is lost: the paper's element solves it for every loss, so that all have the same
-bits.
+At e = 1 nothing is lost: the springs solve it for every loss, so that all have the same bits.
 """
 
 import numpy as np
 
 from planarimpact.common import checks, sliding
-from planarimpact.common.arrays import Array
+from planarimpact.common.arrays import Array, Booleans
 from planarimpact.common.losses import Loss
 from planarimpact.common.results import History
 from planarimpact.lumped import dashpots, histories, stick_slip
@@ -39,27 +38,24 @@ def solve(loss: Loss, impacts: Impacts) -> Outcome:
 
 def history(loss: Loss, mirror: float, impact: Impacts, samples: int) -> History:
     """One contact, its arrays of shape (1,); `mirror` is the sign of the incidence."""
-    if _has_dashpots(loss, impact):
+    if _damped(loss, impact)[0]:
         return histories.of_dashpots(mirror, impact, samples)
-    return histories.of_springs(mirror, _element(loss, impact), samples)
+    return histories.of_springs(mirror, _springs(loss, impact), samples)
 
 
 def friction_work(loss: Loss, impact: Impacts) -> float:
-    """Work of friction in one contact, computed in another way than by `solve`, if possible."""
-    if _has_dashpots(loss, impact):
+    """Work of friction in one contact, by the loop of `planarimpact.phases`."""
+    if _damped(loss, impact)[0]:
         return float(dashpots.solve(impact).dissipation[0])
-    return histories.friction_work(_element(loss, impact))
+    return histories.friction_work(_springs(loss, impact))
 
 
 def _solve_chunk(loss: Loss, impacts: Impacts) -> Outcome:
     """Outcome of impacts, arrays of shape (n,), all at once."""
-    if not loss.dashpots:
-        return stick_slip.solve(_element(loss, impacts))
-    damped = impacts.e < 1
-    dashpots.check_range(impacts.take(np.flatnonzero(damped)), loss.least_restitution)
+    damped = _damped(loss, impacts)
     if damped.all():
         return dashpots.solve(impacts)
-    outcome = stick_slip.solve(impacts)
+    outcome = stick_slip.solve(_springs(loss, impacts))
     if damped.any():
         solved = dashpots.solve(impacts.take(np.flatnonzero(damped)))
         for field, values in zip(outcome, solved, strict=True):
@@ -67,15 +63,16 @@ def _solve_chunk(loss: Loss, impacts: Impacts) -> Outcome:
     return outcome
 
 
-def _has_dashpots(loss: Loss, impact: Impacts) -> bool:
-    """Whether one contact is one of dashpots, in their range."""
-    if loss.dashpots:
-        dashpots.check_range(impact, loss.least_restitution)
-    return loss.dashpots and bool(impact.e[0] < 1)
+def _damped(loss: Loss, impacts: Impacts) -> Booleans:
+    """Which impacts have dashpots; those are checked to be in the range of their solver."""
+    damped = loss.dashpots & (impacts.e < 1)
+    if damped.any():
+        dashpots.check_range(impacts.take(np.flatnonzero(damped)), loss.least_restitution)
+    return damped
 
 
-def _element(loss: Loss, impacts: Impacts) -> Impacts:
-    """Impacts on the paper's element that stands for this loss."""
+def _springs(loss: Loss, impacts: Impacts) -> Impacts:
+    """Impacts on the paper's springs that stand for this loss."""
     zeta2 = loss.stiffness_ratio(impacts.zeta2, impacts.e)
     checks.tangential_frequency(impacts.beta, zeta2)
     return impacts._replace(zeta2=zeta2)

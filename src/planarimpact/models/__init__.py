@@ -95,11 +95,11 @@ def rebound(
     --------
     >>> float(rebound("rigid", 8.0).velocity)
     1.0
-    >>> rebound("continuum", 2.0, restitution=0.8)
+    >>> rebound("lumped", 2.0, restitution=0.8)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
     planarimpact.InputError: restitution = 0.8: below 1 it needs a model with a loss: choose \
-continuum.viscous, continuum.plastic
+lumped.hysteretic (the paper's), ...
     """
     chosen = get(model)
     refuse_unknown(chosen, settings)

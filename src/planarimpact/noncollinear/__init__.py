@@ -131,13 +131,10 @@ def rebound(
     stiffness : array_like
         kappa [N/m] of the normal element; it scales forces and duration, nothing else.
     loss : str, optional
-        What takes the energy; needed where e < 1.
-        "hysteretic", the paper's: the tangential stiffness is kappa/zeta^2.
-        "unloading-stiffness": it is kappa/(e^2 zeta^2), as zeta^2 is a ratio of elastic stiffnesses
-        and the elastic one of the normal element is that of unloading, kappa/e^2; e above 0.
-        Every loss of `planarimpact.lumped` without dashpots is known here. With dashpots the normal
-        one would pull at the end of contact, and a coupled contact that separates and closes again
-        under such a force is not solved.
+        What takes the energy, as in `planarimpact.lumped`; needed where e < 1. With
+        "unloading-stiffness" e is above 0. There is no loss with dashpots: a normal one would pull
+        at the end of contact, and a coupled contact that separates and closes again under such a
+        force is not solved.
 
     Returns
     -------

@@ -157,8 +157,8 @@ class Solver:
         place, solved = answers.place, _has_answer(answers)
         counts = np.bincount(place[solved], minlength=len(methods.METHODS)).tolist()
         self._count_by_method += Counter(dict(enumerate(counts)))
-        has_loss = np.array([bool(method.loss) for method in methods.METHODS])
-        lossy = np.flatnonzero(has_loss[place] & solved)
+        has_loss = rows.impacts.loss_code >= 0
+        lossy = np.flatnonzero(methods.IS_CONTINUUM[place] & has_loss & solved)
         differences = form[lossy] / rows.impacts.unit[lossy]
         known = differences[np.isfinite(differences)]
         self._lossy += lossy.size
