@@ -1,6 +1,6 @@
 """The paper's element: linear in both directions, with a stiffer normal one in restitution.
 
-Functions of impacts x >= 0, which `stick_slip` solves, whatever the size of their groups.
+Functions of impacts x >= 0, which `stick_slip` solves.
 """
 
 import numpy as np
@@ -8,7 +8,6 @@ import numpy as np
 from planarimpact.common.arrays import Array, Numbers
 from planarimpact.common.results import EventKind, History
 from planarimpact.lumped import normal, stick_slip
-from planarimpact.lumped.extremes import scaling
 from planarimpact.lumped.stick_slip import Impacts
 
 # Nodes and weights of Gauss on -1 to 1, for the work of friction within a phase.
@@ -17,8 +16,8 @@ QUADRATURE = np.polynomial.legendre.leggauss(20)
 
 def history(mirror: float, impacts: Impacts, samples: int) -> History:
     """Forces and velocity over one contact, as `lumped.history`; `mirror` is the sign of x."""
-    scale, groups, contact = phases(impacts)
-    zeta2, e = groups[1] / scale, groups[2]
+    groups, contact = phases(impacts)
+    _, zeta2, e = groups
     grid = np.linspace(0.0, 1.0 + e, samples)
     columns: list[Array] = []
     events: list[tuple[EventKind, Array]] = []
@@ -29,7 +28,7 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
         time = np.concatenate([[start], inside, [end]])
         eta = np.concatenate([[phase.eta], _angle(inside, e, phase.in_restitution), [eta_end]])
         friction, velocity = stick_slip.state(phase, eta, *groups)
-        friction, velocity = mirror * friction, mirror * velocity / scale
+        friction, velocity = mirror * friction, mirror * velocity
         columns.append(np.stack([time, normal.force(eta), friction, velocity, zeta2 * friction]))
         events += [(kind, columns[-1][:, 0]) for kind in _kinds(phase, before)]
         before = phase
@@ -40,7 +39,7 @@ def history(mirror: float, impacts: Impacts, samples: int) -> History:
 
 def friction_work(impacts: Impacts) -> float:
     """Work of friction in one contact, integrated over its phases of slip."""
-    scale, groups, contact = phases(impacts)
+    groups, contact = phases(impacts)
     _, zeta2, e = groups
     nodes, weights = QUADRATURE
     work = 0.0
@@ -54,17 +53,13 @@ def friction_work(impacts: Impacts) -> float:
         pace = -e if phase.in_restitution else 1.0
         slip = pace * velocity - phase.side * zeta2 * np.cos(eta)
         work += float(half * (weights @ (friction * slip)))
-    return work / scale
+    return work
 
 
 def phases(
     impacts: Impacts,
-) -> tuple[float, tuple[float, float, float], list[tuple[stick_slip.Phase, Numbers]]]:
-    """One impact: scale, (beta, zeta^2, e), and its phases, each with its last eta.
-
-    Ratios and velocities have been multiplied by the scale.
-    """
-    impacts, scale = scaling.shrunk(impacts)
+) -> tuple[tuple[float, float, float], list[tuple[stick_slip.Phase, Numbers]]]:
+    """One impact: (beta, zeta^2, e), and its phases, each with its last eta."""
     _, beta, zeta2, e = impacts
     trace: list[stick_slip.Phase] = []
     stick_slip.solve(impacts, trace)
@@ -78,7 +73,7 @@ def phases(
     ]
     ends.append(0.0 if trace[-1].in_restitution else np.pi / 2)
     ratios = float(beta[0]), float(zeta2[0]), float(e[0])
-    return float(scale[0]), ratios, list(zip(trace, ends, strict=True))
+    return ratios, list(zip(trace, ends, strict=True))
 
 
 def _angle(time: Array, e: float, in_restitution: bool) -> Array:

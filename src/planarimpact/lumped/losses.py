@@ -8,12 +8,11 @@ import numpy as np
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array
 from planarimpact.common.results import History
-from planarimpact.lumped import hysteretic, viscous
-from planarimpact.lumped.extremes import scaling
+from planarimpact.lumped import hysteretic, stick_slip, viscous
 from planarimpact.lumped.stick_slip import Impacts, Outcome
 
-# Largest omega/Omega of stick in compression in a history: rounding moves its friction by 1e-6.
-LARGEST_FREQUENCY = 1e9
+# Largest omega/Omega. A contact has up to as many phases; with more it is as good as rigid.
+LARGEST_FREQUENCY = 1e4
 
 
 class Hysteretic:
@@ -44,26 +43,28 @@ class Hysteretic:
 
     def solve_chunk(self, impacts: Impacts) -> Outcome:
         """Outcome of impacts, arrays of shape (n,), all at once."""
-        return scaling.solve(self._element(impacts))
+        return stick_slip.solve(self._element(impacts))
 
     def history(self, mirror: float, impacts: Impacts, samples: int) -> History:
         """One contact, its arrays of shape (1,)."""
-        element = self._element(impacts)
-        x, beta, zeta2, e = (float(group[0]) for group in element)
-        if 0 < x < beta and np.sqrt(beta) > LARGEST_FREQUENCY * np.sqrt(zeta2):
-            raise checks.InputError(
-                f"restitution = {e!r}, stiffness_ratio = {float(impacts.zeta2[0])!r}: in a history"
-                f" allowed are tangential frequencies omega/Omega up to {LARGEST_FREQUENCY:g} (for "
-                "no tangential compliance use planarimpact.rigid)"
-            )
-        return hysteretic.history(mirror, element, samples)
+        return hysteretic.history(mirror, self._element(impacts), samples)
 
     def friction_work(self, impacts: Impacts) -> float:
         """Work of friction in one contact, computed in another way than by `solve`, if possible."""
         return hysteretic.friction_work(self._element(impacts))
 
     def _element(self, impacts: Impacts) -> Impacts:
-        return impacts._replace(zeta2=self.stiffness_ratio(impacts.zeta2, impacts.e))
+        """Impacts of the element of the paper; refused is one that is too stiff."""
+        element = impacts._replace(zeta2=self.stiffness_ratio(impacts.zeta2, impacts.e))
+        stiff = element.beta > LARGEST_FREQUENCY**2 * element.zeta2
+        if stiff.any():
+            _, beta, zeta2, e = (float(group[stiff][0]) for group in impacts)
+            raise checks.InputError(
+                f"stiffness_ratio = {zeta2}: at mass_ratio = {beta:g}, restitution = {e:g} allowed "
+                f"are tangential frequencies omega/Omega up to {LARGEST_FREQUENCY:g} (for no "
+                "tangential compliance use planarimpact.rigid)"
+            )
+        return element
 
 
 class UnloadingStiffness(Hysteretic):

@@ -374,6 +374,7 @@ MODELS = {
             "lumped.unloading-stiffness",
             partial(lumped.rebound, loss="unloading-stiffness"),
             cost="phases",
+            restitution=(1e-3, 1.0),
             valid="as lumped, with e^2 zeta^2 for zeta^2: both stiffnesses elastic; solved to "
             "rounding",
             source="Stronge 1994, with the elastic stiffness of unloading in the ratio",

@@ -56,8 +56,7 @@ def _check_range(impacts: Impacts) -> None:
     """Refuse impacts beyond the range of this solver."""
     _, beta, zeta2, e = impacts
     share = f"{LEAST_SHARE:g} to {LARGEST_SHARE:g} times the mass ratio"
-    with np.errstate(over="ignore"):  # of mass ratios that are refused
-        beyond = (zeta2 < LEAST_SHARE * beta) | (zeta2 > LARGEST_SHARE * beta)
+    beyond = (zeta2 < LEAST_SHARE * beta) | (zeta2 > LARGEST_SHARE * beta)
     least = f"numbers from {LEAST_RESTITUTION:g} to 1"
     rules = [
         ("restitution", e, e < LEAST_RESTITUTION, least),
