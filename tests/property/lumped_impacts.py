@@ -16,7 +16,7 @@ ULP = 2.0**-52
 DISTANCES = 10.0 ** np.arange(-16, -3.5, 0.5)
 # Least and largest beta, zeta^2 and e, where digits are promised in full.
 BOX = {
-    "hysteretic": [(1, np.inf), (5e-324, np.inf), (0, 1)],
+    "hysteretic": [(1, 1e12), (1e-12, 1e12), (0, 1)],
     "viscous": [(1, 8), (0.1, 10), (0.01, 1 - ULP / 2)],
 }
 
@@ -46,7 +46,9 @@ def drawn(rng, count, loss):
 
 def within(groups, loss):
     x, *ratios = groups
-    return np.array([x, *(np.clip(r, *ends) for r, ends in zip(ratios, BOX[loss], strict=True))])
+    beta, zeta2, e = (np.clip(r, *ends) for r, ends in zip(ratios, BOX[loss], strict=True))
+    stiffest = 1.000001e-8 * beta  # omega/Omega up to 1e4
+    return np.array([x, beta, np.maximum(zeta2, stiffest), e])
 
 
 def courses(groups, loss):
@@ -134,16 +136,16 @@ def ordinary(rng, loss):
 
 def extreme(loss):
     """The ends of all parameters, crossed."""
-    x = [0.0, 5e-324, 1e-310, 1e-300, 1e-100, 1e-9, 1.0, 30.0, 1e6, 1e150, 1e300, 8e307]
+    x = [0.0, 5e-324, 1e-100, 1e-9, 1.0, 30.0, 1e6, 1e100]
     if loss == "viscous":
         beta, ratio = [1.0, 3.5, 1e6], np.array([1e-4, 1e-2, 0.5, 1.0, 2.0, 1e3, 1e6])
         e = [1e-3, 0.03, np.exp(-2), 0.5, 0.99, 1 - 1e-9, 1 - ULP / 2]
         x, beta, ratio, e = (a.ravel() for a in np.meshgrid(x, beta, ratio, e))
         return np.stack([x, beta, ratio * beta, e])
-    beta = [1.0, 1 + ULP, 3.5, 1e6, 1e150, 8e307]
-    zeta2 = [5e-324, 1e-300, 1e-150, 1e-8, 1.21, 1e12, 1e150, 1e300, 1.79e308]
-    e = [0.0, 5e-324, 1e-300, 1e-160, 1e-9, 0.5, 1 - ULP / 2, 1.0]
-    return np.stack([a.ravel() for a in np.meshgrid(x, beta, zeta2, e)])
+    beta, share = [1.0, 1 + ULP, 3.5, 1e6, 1e12], np.array([0.0, 1e-4, 0.3, 1.0, 30.0, 1e12])
+    e = [0.0, 1e-12, 1e-9, 0.5, 1 - ULP / 2, 1.0]
+    x, beta, share, e = (a.ravel() for a in np.meshgrid(x, beta, share, e))
+    return within(np.stack([x, beta, share * beta, e]), loss)
 
 
 def scales(groups, loss):

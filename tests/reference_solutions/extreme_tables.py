@@ -30,7 +30,7 @@ HEADER = [
 
 def thresholds(beta, zeta2, e):
     """Incidences at which the order of phases changes, or a source says so, as float64."""
-    with mp.workdps(700):  # e may be denormal
+    with mp.workdps(200):  # incidences to 1e100, e from 1e-12
         beta, zeta2, e = map(mp.mpf, (beta, zeta2, e))
         late = max(mp.zero, e * beta - zeta2 / e) if e else mp.zero
         found = [zeta2, beta, max(zeta2, beta + late), (1 + e) * beta]

@@ -82,7 +82,7 @@ def test_it_slides_throughout_from_its_limit_on_and_not_below(name, groups):
         if not models.admits(model, beta, zeta2, e):
             continue
         limit = float(SLIDES_FROM[name](beta, zeta2, e))
-        x = np.array([limit, limit * (1 + 1e-12), limit + 1, 1e300])
+        x = np.array([limit, limit * (1 + 1e-12), limit + 1, 1e100])
         result = solve(model, x, beta, zeta2, e)
         np.testing.assert_array_equal(result.velocity, x - (1 + e) * beta)
         assert (result.regime[1:] == Regime.SLIP_THROUGHOUT).all()

@@ -45,7 +45,7 @@ def test_two_bodies_are_one_of_their_inverse_mass():
     np.testing.assert_allclose(one[:9], other[:9])
 
 
-@pytest.mark.parametrize("e", [1e-6, 1e-12])
+@pytest.mark.parametrize("e", [1e-6, 1e-9, 1e-12])
 def test_a_history_of_little_restitution_ends_at_separation(e):
     contact = paper_history(0.4, 1.0, rod(30.0), 0.8, e)
     result = paper_rebound(0.4, 1.0, rod(30.0), 0.8, e)

@@ -200,7 +200,7 @@ def _collide_arrays(
     # Also where nothing approaches: a normal of two centres at one place is no number, or zero.
     for i, problem in problems_of_normals(given.normal).items():
         raise InputError(f"{_place(i, shape)}{problem}")
-    approach = np.flatnonzero(~(given.v2 <= 0))  # or it is too large to tell
+    approach = np.flatnonzero(given.v2 > 0)
     met = given if approach.size == given.v2.size else given.take(approach)
     for i, problem in problems(met).items():
         raise InputError(f"{_place(approach[i], shape)}{problem}")

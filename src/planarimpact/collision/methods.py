@@ -112,8 +112,7 @@ def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
     """Each impact answered by its method, with its peak friction or, in less time, without."""
     place, error = of_each(impacts, tolerance)
     slides = place == SLIDING
-    with np.errstate(over="ignore"):
-        fall = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
+    fall = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
     change = np.where(slides, -fall, 0.0)
     velocity = impacts.v1 + change
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from planarimpact import bodies
 from planarimpact.bodies import Material
 from planarimpact.common import checks
-from planarimpact.common.arrays import LARGEST, SMALLEST, Array, ArrayLike, Integers
+from planarimpact.common.arrays import Array, ArrayLike, Integers
 from planarimpact.common.checks import InputError
 from planarimpact.common.losses import CODES, NAMES, SPHERES
 
@@ -17,9 +17,6 @@ from planarimpact.common.losses import CODES, NAMES, SPHERES
 RESTITUTION_FROM = {"restitution": ""} | {loss.material: name for name, loss in SPHERES.items()}
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *RESTITUTION_FROM)
 _ARRAYS = (*_FIELDS, "loss_code")
-# Sizes of numbers that `one_impact` computes with. No product that it needs leaves the range of
-# numbers.
-PLAIN_LEAST, PLAIN_MOST = 1e-25, 1e25
 
 
 class Pair:
@@ -105,9 +102,13 @@ class Pair:
         effective_modulus: ArrayLike | None = None,
     ) -> None:
         laws = {
-            "restitution": _law("restitution", restitution, "numbers from 0 to 1", 0, 1),
-            "relaxation_time": _law("relaxation_time", relaxation_time, "numbers from 0", 0),
-            "yield_pressure": _law("yield_pressure", yield_pressure, "numbers above 0", SMALLEST),
+            "restitution": checks.restitution(_given(restitution), missing=True),
+            "relaxation_time": checks.not_negative(
+                "relaxation_time", _given(relaxation_time), missing=True
+            ),
+            "yield_pressure": checks.positive(
+                "yield_pressure", _given(yield_pressure), missing=True
+            ),
         }
         stiffness = _stiffness(materials, stiffness_ratio, effective_modulus)
         mu = checks.not_negative("friction", friction)
@@ -174,16 +175,13 @@ def _fill(pair: Pair, *fields: Array) -> None:
         values.setflags(write=False)
         object.__setattr__(pair, name, values.view())  # NumPy lets an array be written again
     numbers = () if pair.shape else tuple(float(getattr(pair, name)) for name in _FIELDS)
-    plain = all(not n or n != n or PLAIN_LEAST <= n <= PLAIN_MOST for n in numbers)
+    plain = all(not n or n != n or n >= checks.LEAST for n in numbers)
     object.__setattr__(pair, "floats", numbers if plain else ())
 
 
-def _law(
-    name: str, value: ArrayLike | None, allowed: str, low: float, high: float = LARGEST
-) -> Array:
+def _given(value: ArrayLike | None) -> ArrayLike:
     """Numbers of one law, NaN where a pair does not have it."""
-    given = np.nan if value is None else value
-    return checks.checked(name, given, f"finite {allowed}", low, high, missing=True)
+    return np.nan if value is None else value
 
 
 def _stiffness(

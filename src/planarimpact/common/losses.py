@@ -66,6 +66,7 @@ LOSSES = (
         "unloading-stiffness",
         "as lumped, with e^2 zeta^2 for zeta^2: both stiffnesses elastic; solved to rounding",
         "Stronge 1994, with the elastic stiffness of unloading in the ratio",
+        least_restitution=1e-3,  # below it the tangential element is as good as rigid
         stiffness_ratio=lambda zeta2, e: e * (e * zeta2),
     ),
     Loss(

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common import checks, sliding
-from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.arrays import SMALLEST, Array, ArrayLike
 from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
 from planarimpact.common.results import Rebound
 from planarimpact.continuum import elastic, inelastic, refinement
@@ -156,12 +156,13 @@ def rebound(
     signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if tolerance is None:
         tolerance = ELASTIC_TOLERANCE if loss is None else LOSSY_TOLERANCE
+    rule = "finite numbers above 0"  # of a tiny incidence it may be tiny too
     signed, beta, zeta2, e, allowed = checks.broadcast(
         incidence=signed,
         mass_ratio=beta,
         stiffness_ratio=zeta2,
         restitution=e,
-        tolerance=checks.positive("tolerance", tolerance),
+        tolerance=checks.checked("tolerance", tolerance, rule, SMALLEST),
     )
     kind = _kind_of_motion(restitution, loss)
     x, beta, zeta2, e, allowed = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, allowed))

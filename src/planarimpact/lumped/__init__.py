@@ -3,17 +3,16 @@
 A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
 on it with Coulomb friction. `by_loss` has the solver of each loss of energy, `stick_slip` the
-phases, `slip_onset` where slip starts, `normal` the normal motion, `extremes` what makes groups of
-any size possible.
+phases in closed form, `slip_onset` where slip starts, `normal` the normal motion. Histories, and
+impacts with dashpots (`dashpots`), are followed by `planarimpact.phases`.
 
 The keyword `loss` names what takes the normal energy where e < 1, one of `LOSSES`: "hysteretic" is
 the paper's. `planarimpact.common.losses` says what each one is. At e = 1 all are the same model.
 
 All four functions take arguments of `rebound`, which says what they mean and their ranges:
 `incidence`, `mass_ratio`, `stiffness_ratio`, `restitution` and `loss`. `history` and
-`friction_work` are of one contact: they take scalars alone, and a contact of 100 000 phases at
-most. Where it sticks in compression, a history needs omega/Omega up to 1e9, for digits of friction:
-so e = 0 has none with "unloading-stiffness". An argument not allowed raises `InputError`.
+`friction_work` are of one contact: they take scalars alone. An argument not allowed raises
+`InputError`.
 
 Errors that these functions state are those of the solution. The model itself is further off. For a
 solid sphere of Poisson's ratio 0.3 and e = 1 its velocity differs from the elastic continuum by up
@@ -49,14 +48,17 @@ def rebound(
     Parameters
     ----------
     incidence : array_like
-        x = v1(0)/(mu v2(0)), tangential over normal speed and friction. Any number to 8e307;
+        x = v1(0)/(mu v2(0)), tangential over normal speed and friction. Any number to 1e100;
         a negative one gives the mirror image.
     mass_ratio : array_like
-        beta = m2/m1 >= 1 (Eqs 1, 2); 3.5 for a solid sphere on a half-space.
+        beta = m2/m1, 1 to 1e12 (Eqs 1, 2); 3.5 for a solid sphere on a half-space.
     stiffness_ratio : array_like
-        zeta^2 > 0, normal over tangential stiffness; (2 - nu)/(2 (1 - nu)) for elastic spheres.
+        zeta^2, normal over tangential stiffness, to 1e12; (2 - nu)/(2 (1 - nu)) for elastic
+        spheres. At least 1e-8 beta: the frequency omega/Omega = (beta/zeta^2)^(1/2) is up to 1e4.
+        With the loss "unloading-stiffness" that holds for e^2 zeta^2, so that e = 0 has none. A
+        stiffer contact is one without tangential compliance, `planarimpact.rigid`.
     restitution : array_like
-        Energetic coefficient e, 0 to 1 (Eq. 5).
+        Energetic coefficient e, 0 or 1e-12 to 1 (Eq. 5).
     loss : str
         What takes the normal energy, one of `LOSSES`.
 
@@ -82,10 +84,10 @@ def rebound(
     The errors of velocity, peak friction and dissipation, as a solution of the model, are at most a
     hundred times the effect of rounding the four arguments. This holds in every regime, and at the
     thresholds. The exception is a dissipation below 1e-16 of the energy, where T and N fall
-    together (zeta^2 next to beta, e = 1). The time does not depend on the number of phases, which
-    grows as omega/Omega: see `extremes.many_phases`. Stronge's printed equations differ in two
-    places: the limit of slip throughout (see `slip_throughout_limit`) and the direction of the last
-    slip, which at small e is the incident one.
+    together (zeta^2 next to beta, e = 1). The time grows with the number of phases, that is with
+    e omega/Omega. Stronge's printed equations differ in two places: the limit of slip throughout
+    (see `slip_throughout_limit`) and the direction of the last slip, which at small e is the
+    incident one.
 
     With viscous loss the errors are at most 1e-9: of the velocity relative to max(1, x, beta),
     of the peak to 1, of the dissipation to x^2/(2 beta) or, if that is smaller, (1 + e) x.
@@ -126,8 +128,8 @@ def slip_throughout_limit(
     The stiffness ratio of the loss stands for zeta^2: e^2 zeta^2 with "unloading-stiffness". With
     dashpots it is max(zeta^2, beta + e (beta - zeta^2)).
 
-    Arguments and errors: `planarimpact.lumped`. With viscous loss the ratios may have any size
-    here, and the limit at e = 0 is that of small e.
+    Arguments and errors: `planarimpact.lumped`. Here omega/Omega has no limit, and with viscous
+    loss the ratios and the restitution have none of their own.
 
     Returns
     -------

@@ -31,10 +31,6 @@ from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import ConvergenceError
 from planarimpact.common.results import Regime
 from planarimpact.lumped import normal, slip_onset
-from planarimpact.lumped.extremes import many_phases
-
-# An impact that still alternates after this many sticks may skip most others by `many_phases`.
-STICKS_BEFORE_SKIP = 16
 
 
 class Impacts(NamedTuple):
@@ -103,9 +99,8 @@ def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array
     `gap` is 1 - |slope|, which the caller computes without cancellation.
     """
     square = gap * (1 + np.abs(slope))  # 1 - slope^2
-    # Rate > 1, so no square overflows, nor do both underflow. NumPy's hypot is ten times slower.
     force, share = np.sqrt(square), slope / rate
-    amplitude = np.sqrt(square + share * share)
+    amplitude = np.sqrt(square + share * share)  # NumPy's hypot is ten times slower
     return amplitude, np.arctan2(rate * force, slope), np.arctan2(force, np.abs(slope))
 
 
@@ -216,8 +211,6 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome) -> None:
     """
     count = 0
     while stick.which.size:
-        if count == STICKS_BEFORE_SKIP:
-            _skip(stick, impacts, outcome)
         which, amplitude = stick.which, stick.amplitude
         beta, zeta2, e = (field[which] for field in impacts[1:])
         omega = np.sqrt(beta / zeta2)
@@ -262,27 +255,7 @@ def _most_sticks(rate: Array) -> int:
     """A number of sticks in restitution that no impact reaches: the loop must end.
 
     In restitution the phase of T grows by rate pi/2, that is rate/2 half-waves. A stick and its
-    slip together take about one (`many_phases` says how nearly). With a part of one at both ends
-    there are some rate/2 + 2 sticks. The bound need not be sharp: it is about twice as large.
+    slip together take about one. With a part of one at both ends there are some rate/2 + 2 sticks.
+    The bound need not be sharp: it is about twice as large.
     """
     return int(rate.max()) + 3
-
-
-def _skip(stick: Stick, impacts: Impacts, outcome: Outcome) -> None:
-    """Move sticks that have far to go close to separation; adds the work of slip on the way.
-
-    `many_phases` gives the angle at which a later stick starts, and how many half-waves lie
-    between. The work is the tangential energy that is lost between the two starts of stick.
-    """
-    beta, zeta2, e = (field[stick.which] for field in impacts[1:])
-    rate = e * np.sqrt(beta / zeta2)
-    far = np.flatnonzero(many_phases.worth_skipping(stick.eta, rate))
-    if not far.size:
-        return
-    rate, zeta2 = rate[far], zeta2[far]
-    eta, half_waves = many_phases.skip(stick.eta[far], rate)
-    amplitude, theta, eta = _tangent(-np.cos(eta), normal.impulse(eta), rate)
-    energy_lost = zeta2 * (stick.amplitude[far] ** 2 - amplitude**2) / 2
-    outcome.dissipation[stick.which[far]] += energy_lost
-    stick.eta[far], stick.theta[far], stick.amplitude[far] = eta, theta, amplitude
-    stick.side[far] *= np.where(half_waves % 2 == 0, 1.0, -1.0)

@@ -183,8 +183,7 @@ def _rebound(
     x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans, forces: bool
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, peak friction, work of friction and regime of impacts with x >= 0."""
-    with np.errstate(over="ignore"):  # of impacts that slide
-        y, b = x / zeta2, beta / zeta2
+    y, b = x / zeta2, beta / zeta2
     velocity = sliding.velocity(x, beta, e)
     peak, work = np.full((2, x.size), 1.0 if forces else np.nan)
     if forces:

@@ -19,8 +19,8 @@ GROUPS = {
 }
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
 ROUNDING = 2.0**-52
-# Smaller numbers have less than two digits in float64: a hundred times its smallest number.
-FLOOR = 100 * 5e-324
+# Smaller numbers count as zero: outputs that happen to be zero have no size.
+FLOOR = 1e-300
 # Largest number of digits that is counted.
 DIGITS = 16.0
 
