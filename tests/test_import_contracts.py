@@ -19,10 +19,11 @@ SOLVER = {
     "common": "",
     "normal_impact": "common",
     "rigid": "common",
-    "lumped": "common",
+    "phases": "common",
+    "lumped": "common phases",
     "continuum": "common normal_impact",
     "bodies": "common normal_impact",
-    "noncollinear": "common bodies",
+    "noncollinear": "common bodies phases",
     "spheres": "common normal_impact continuum",
     "models": "common normal_impact rigid lumped continuum spheres",
     "export": "planarimpact common normal_impact collision spheres",
@@ -72,6 +73,10 @@ CONTRACTS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # Of a package of the solver others import its `__init__` or one of these. In `common` and in the
 # reproduction every module is public.
 PUBLIC_MODULES = {
+    "phases.closed",  # contacts that the loop follows, and their history
+    "phases.off_centre",
+    "phases.runs",
+    "phases.viscous",
     "continuum.inelastic",  # single steps, and motions of one's own
     "normal_impact.hertz",
     "normal_impact.kelvin_voigt",

@@ -258,26 +258,29 @@ def stiffness_ratio(value: ArrayLike) -> Array:
     return checked("stiffness_ratio", value, rule, LEAST_RATIO, LARGEST_RATIO)
 
 
-def tangential_frequency(mass_ratio: Array, stiffness_ratio: Array) -> None:
-    """Refuse a stiffness ratio that is too small beside the mass ratio.
+def tangential_frequency(
+    mass_ratio: Array, stiffness_ratio: Array, restitution: Array, of_loss: Array
+) -> None:
+    """Refuse a tangential element that is too stiff; `of_loss` is the stiffness ratio with a loss.
 
     Examples
     --------
-    >>> tangential_frequency(np.array(4.0), np.array(1e-9))
+    >>> beta, zeta2, e = np.full((3, 1), [[4.0], [1e-9], [1.0]])
+    >>> tangential_frequency(beta, zeta2, e, zeta2)
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: stiffness_ratio = 1e-09: allowed are numbers from 4e-08, for \
-frequencies omega/Omega = sqrt(mass_ratio/stiffness_ratio) up to 10000 (for no tangential \
-compliance use a rigid contact)
+    planarimpact.InputError: stiffness_ratio = 1e-09: at mass_ratio = 4, restitution = 1 allowed \
+are tangential frequencies omega/Omega up to 10000 (for no tangential compliance use rigid)
     """
-    least = mass_ratio / LARGEST_FREQUENCY**2
-    stiff = stiffness_ratio < least
+    stiff = mass_ratio > LARGEST_FREQUENCY**2 * of_loss
     if stiff.any():
+        beta, zeta2, e = (
+            float(group[stiff][0]) for group in (mass_ratio, stiffness_ratio, restitution)
+        )
         raise InputError(
-            f"stiffness_ratio = {float(stiffness_ratio[stiff][0])}: allowed are numbers from "
-            f"{float(least[stiff][0]):g}, for frequencies omega/Omega = sqrt(mass_ratio/"
-            f"stiffness_ratio) up to {LARGEST_FREQUENCY:g} (for no tangential compliance use a "
-            "rigid contact)"
+            f"stiffness_ratio = {zeta2}: at mass_ratio = {beta:g}, restitution = {e:g} allowed are "
+            f"tangential frequencies omega/Omega up to {LARGEST_FREQUENCY:g} (for no tangential "
+            "compliance use rigid)"
         )
 
 

@@ -74,5 +74,5 @@ def _damped(loss: Loss, impacts: Impacts) -> Booleans:
 def _springs(loss: Loss, impacts: Impacts) -> Impacts:
     """Impacts on the paper's springs that stand for this loss."""
     zeta2 = loss.stiffness_ratio(impacts.zeta2, impacts.e)
-    checks.tangential_frequency(impacts.beta, zeta2)
+    checks.tangential_frequency(*impacts[1:], zeta2)
     return impacts._replace(zeta2=zeta2)

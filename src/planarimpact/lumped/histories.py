@@ -20,13 +20,15 @@ def of_springs(mirror: float, impact: Impacts, samples: int) -> History:
 
     found = runs(steps, np.linspace(0.0, 1.0, samples), unit)
     compression = max(run.time[-1] for run in found if not run.phase.unloading)
-    restitution = max(found[-1].time[-1] - compression, 0.0)
+    restitution = found[-1].time[-1] - compression
     columns, events = [], []
     before = None
     for phase, time, z in found:
-        time = time / compression
+        # Both halves are as long as they are by theory, to the last digit.
         if phase.unloading:
-            time = 1 + e * ((time - 1) * (compression / restitution))
+            time = 1 + e * ((time - compression) / restitution)
+        else:
+            time = time / compression
         states = z[N], mirror * z[F], mirror * z[Q], mirror * impact.zeta2 * z[F]
         columns.append(np.stack([time, *states]))
         if before and phase.unloading and not before.unloading:

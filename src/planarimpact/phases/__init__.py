@@ -70,7 +70,10 @@ _Fields = TypeVar("_Fields", bound=tuple[Any, ...])
 
 
 class Contacts(Protocol):
-    """What `follow` asks of n contacts. `who` are the indices of some of them, k in number."""
+    """What `follow` asks of n contacts. `who` are the indices of some of them, k in number.
+
+    A contact that is alone may be there twice.
+    """
 
     def matrix(self, who: Integers) -> Array:
         """A of the phases that these contacts are in, shape (d, d, k)."""
@@ -136,19 +139,19 @@ def follow(
 
     >>> class Spring:
     ...     def matrix(self, who):
-    ...         return np.array([[[0.0], [1.0]], [[-1.0], [0.0]]])
+    ...         return np.stack([[[0.0, 1.0], [-1.0, 0.0]]] * who.size, axis=-1)
     ...     def rows(self, who):
-    ...         return np.array([[[1.0], [0.0], [0.0]]])  # the deflection
+    ...         return np.stack([[[1.0, 0.0, 0.0]]] * who.size, axis=-1)  # the deflection
     ...     def power(self, who):
-    ...         return np.zeros((2, 3, 1))
+    ...         return np.zeros((2, 3, who.size))
     ...     def switch(self, who, z, event, passed):
     ...         self.time = float(passed.time[0])
-    ...         return np.array([True])
+    ...         return who >= 0
     >>> spring, z = Spring(), np.array([[0.0], [1.0]])
     >>> follow(spring, z).size, round(spring.time, 14) == round(np.pi, 14)
     (0, True)
     """
-    who = np.arange(z.shape[1]) if who is None else who
+    who = _not_alone(np.arange(z.shape[1]) if who is None else who)
     plan = _Plan.of(contacts, who)
     passed = Passed.nothing(len(z), who.size)
     for _ in range(MOST_STEPS):
@@ -177,9 +180,14 @@ def follow(
             for field, fresh in zip(plan, _Plan.of(contacts, who[going]), strict=True):
                 field[..., going] = fresh
         if ended.any():
-            left = np.delete(np.arange(who.size), hit[ended])
+            left = _not_alone(np.delete(np.arange(who.size), hit[ended]))
             who, plan, passed = who[left], _taken(plan, left), _taken(passed, left)
-    return who
+    return np.unique(who)
+
+
+def _not_alone(which: Integers) -> Integers:
+    """Indices, twice if it is one: NumPy sums over one contact in another order than over more."""
+    return np.repeat(which, 2) if which.size == 1 else which
 
 
 class _Plan(NamedTuple):
@@ -229,8 +237,8 @@ def _advance(plan: _Plan, z: Array, passed: Passed) -> _End:
     passed.time[...] += taken
     passed.integral[...] += taken * np.einsum("kn,kdn->dn", powers / (DEGREE + 1), series)
     factors = _polynomials(plan.power, series) * powers[:, None]
-    force, velocity = np.tensordot(NODE_POWERS, factors, 1).transpose(1, 0, 2)
-    passed.work[...] += taken * (WEIGHTS @ (force * velocity))
+    force, velocity = np.einsum("qk,kmn->mqn", NODE_POWERS, factors)
+    passed.work[...] += taken * np.einsum("q,qn->n", WEIGHTS, force * velocity)
     largest = np.where(share > 0, _largest(factors[:, 0], force), 0.0)
     passed.largest[...] = np.maximum(passed.largest, largest)
     return _End(series, share, np.einsum("kn,kdn->dn", powers, series), event)
@@ -271,15 +279,17 @@ def _first_event(plan: _Plan, series: Array) -> tuple[Array, Integers]:
     sizes = np.abs(plan.rows)
     size = np.einsum("mdn,dn->mn", sizes[:, :-1], np.abs(series[0])) + sizes[:, -1]
     at_zero = np.abs(start) <= TIE * size
-    row, contact = np.nonzero((floor <= 0) | at_zero)
+    row, contact = np.divmod(_not_alone(np.flatnonzero((floor <= 0) | at_zero)), start.shape[1])
     if not row.size:
         return np.ones(start.shape[1]), np.full(start.shape[1], -1)
     falling = polynomials[:, row, contact]
-    tied = np.flatnonzero(at_zero[row, contact])
+    tied = _not_alone(np.flatnonzero(at_zero[row, contact]))
     if tied.size:
         which = contact[tied]
-        terms = _series(np.abs(plan.matrix[..., which]), np.abs(series[0][:, which]), DECIDING)
-        noise = np.einsum("dn,kdn->kn", sizes[row[tied], :-1, which].T, terms)
+        matrix, z = np.take(plan.matrix, which, axis=-1), np.take(series[0], which, axis=-1)
+        terms = _series(np.abs(matrix), np.abs(z), DECIDING)
+        own = np.ascontiguousarray(sizes[row[tied], :-1, which].T)
+        noise = np.einsum("dn,kdn->kn", own, terms)
         noise[0] = size[row[tied], which]
         falling[:, tied] = _decided(falling[:, tied], TIE * noise)
     zeros = np.full(start.shape, np.inf)
@@ -298,13 +308,14 @@ def _largest(polynomials: Array, values: Array) -> Array:
     # At an end the size is largest if the slope there leads outward.
     end_slope = (DEGREE * polynomials).sum(axis=0)
     outward = np.where(top == 0, -polynomials[1], np.where(top == last, end_slope, -best))
-    inner = np.flatnonzero(outward * best < 0)
+    inner = _not_alone(np.flatnonzero(np.sign(outward) != np.sign(best)))
     if inner.size:
-        derivatives, t = _derivatives(polynomials[:, inner], 3), NODES[top[inner]]
+        polynomials = np.take(polynomials, inner, axis=1)
+        derivatives, t = _derivatives(polynomials, 3), NODES[top[inner]]
         for _ in range(NEWTON_STEPS):
             _, slope, bend = np.einsum("kn,bkn->bn", _powers(t), derivatives)
             t = np.clip(t - slope / np.where(bend == 0, 1.0, bend), 0.0, 1.0)
-        value = (_powers(t) * polynomials[:, inner]).sum(axis=0)
+        value = (_powers(t) * polynomials).sum(axis=0)
         best[inner] = np.maximum(np.abs(best[inner]), np.abs(value))
     return np.abs(best)
 
@@ -335,7 +346,8 @@ def _first_zero(polynomials: Array) -> Array:
     The march steps from zero to zero of this bound, and comes to a zero of p from below:
     quadratically, or linearly to a double or triple one. Where p starts below zero, that is at 0.
     """
-    derivatives = _derivatives(polynomials, 5)
+    largest = np.abs(polynomials).max(axis=0)  # of order 1 no square leaves the range of numbers
+    derivatives = _derivatives(polynomials / np.where(largest > 0, largest, 1.0), 5)
     largest, derivatives = np.abs(derivatives[4]).sum(axis=0) / 2, derivatives[:4]
     zero, left = np.full(largest.size, np.inf), np.arange(largest.size)
     t, window = np.zeros(left.size), np.ones(left.size)
@@ -351,8 +363,9 @@ def _first_zero(polynomials: Array) -> Array:
         zero[left[found]] = t[found]
         going = ~found & (t <= 1)
         if not going.all():
+            going = _not_alone(np.flatnonzero(going))
             left, t, window, largest = left[going], t[going], window[going], largest[going]
-            derivatives = derivatives[..., going]
+            derivatives = np.take(derivatives, going, axis=-1)
             if not left.size:
                 break
     zero[left] = t  # a zero of higher order

@@ -12,8 +12,8 @@ On the line of unloading N' = y/e^2. With time and y in units of e that is N' = 
 other rates get the factor s = e, which is 1 in loading. In place of V the state has
 Q = V + C s y: Q' = -s (beta - C^2) F keeps its digits where the mass is nearly singular.
 
-Every contact with friction starts in stick. If it slips from the first instant, the row
-mu N - |F|, which starts at zero, falls.
+A contact starts in slip where |V| >= mu zeta^2. At that limit the speed of slip starts at zero, and
+if it falls the contact sticks at once.
 """
 
 from typing import NamedTuple
@@ -25,8 +25,6 @@ from planarimpact.phases import Passed
 from planarimpact.phases.runs import Order
 
 N, Y, F, Q = range(4)  # states
-# Contacts this near to the limit of initial slip start in stick: the loop decides on ties.
-CLOSE = 1e-9
 CONSTANT = 4  # the last entry of a row
 HALF_END, RELOAD, FORWARD, BACKWARD = range(4)  # events; FORWARD ends slip of both directions
 
@@ -65,7 +63,7 @@ class OffCentre:
         self.ends_at_turn = e == 0
         self.groups = np.array([beta, coupling, zeta2, mu, np.where(self.ends_at_turn, 1.0, e)])
         self.z = np.array([np.zeros(n), np.ones(n), np.zeros(n), x + coupling])
-        slides = (np.abs(x) > mu * zeta2 * (1 + CLOSE)) | (mu == 0)
+        slides = np.abs(x) >= mu * zeta2
         self.g = np.where(slides, np.where(x < 0, -1.0, 1.0), 0.0)
         self.s, self.unloading, self.jams = np.ones(n), *np.zeros((2, n), bool)
         self.impulses, self.order = np.zeros((2, n)), Order(n)
@@ -118,7 +116,7 @@ class OffCentre:
         half, reload, changes = event == HALF_END, event == RELOAD, event >= FORWARD
         turns, separates = half & ~unloading, half & unloading
         stops, slides = changes & slips, changes & ~slips
-        self.order.add(who, slips, passed.time)
+        self.order.add(who, slips, passed.integral[N])
         self.jams[who] |= (g * mu * coupling > 1) & (passed.time > 0)
         self.impulses[:, who] += s * passed.integral[[F, N]]
         self.duration[who] += s * passed.time

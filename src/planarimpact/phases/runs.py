@@ -1,7 +1,7 @@
 """The order of stick and slip of contacts, and the history of one, from the steps of `follow`."""
 
-from collections.abc import Callable
-from itertools import groupby
+from collections.abc import Callable, Iterable
+from itertools import chain, groupby
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,6 +9,9 @@ import numpy as np
 from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.common.results import Regime
 from planarimpact.phases import TERMS, Step
+
+# A phase of less time or normal impulse is one of rounding: two events are at one instant.
+SHORT, LEAST_IMPULSE = 1e-13, 1e-15
 
 
 class Run(NamedTuple):
@@ -25,9 +28,8 @@ def runs(steps: list[Step], shares: Array, scale: Callable[[Any], float]) -> lis
     Both ends of each phase come on top, so an event is there twice, before and after it. `scale` is
     the unit of time of a phase. Phases that take no time are left out.
     """
-    lasting = (step for step in steps if step.share > 0)
-    phases = [(phase, list(own)) for phase, own in groupby(lasting, lambda step: step.phase)]
-    spans = [np.cumsum([step.length * step.share for step in own]) for _, own in phases]
+    phases = _phases(chain(*(own for _, own in _phases(steps) if _spans(own)[-1] > SHORT)))
+    spans = [_spans(own) for _, own in phases]
     ends = np.cumsum(
         [scale(phase) * span[-1] for (phase, _), span in zip(phases, spans, strict=True)]
     )
@@ -46,17 +48,27 @@ def runs(steps: list[Step], shares: Array, scale: Callable[[Any], float]) -> lis
     return found
 
 
+def _phases(steps: Iterable[Step]) -> list[tuple[Any, list[Step]]]:
+    """Steps by the phase that they are in, which may come again."""
+    return [(phase, list(own)) for phase, own in groupby(steps, lambda step: step.phase)]
+
+
+def _spans(steps: list[Step]) -> Array:
+    """Time from the first of some steps to the end of each."""
+    return np.cumsum([step.length * step.share for step in steps])
+
+
 class Order:
-    """The order of stick and slip of n contacts so far; phases that take no time do not count."""
+    """The order of stick and slip of n contacts so far, of phases with an impulse."""
 
     def __init__(self, n: int) -> None:
         """Before the first phase."""
         self.sticks = np.zeros(n, int)
         self.begun, self.starts_in_slip, self.ends_in_slip = np.zeros((3, n), bool)
 
-    def add(self, who: Integers, slips: Booleans, time: Array) -> None:
-        """Add a phase of some of them."""
-        lasts, last = time > 0, self.ends_in_slip[who]
+    def add(self, who: Integers, slips: Booleans, impulse: Array) -> None:
+        """Add a phase of some of them, with its normal impulse."""
+        lasts, last = impulse > LEAST_IMPULSE, self.ends_in_slip[who]
         self.sticks[who] += lasts & ~slips & (last | ~self.begun[who])
         self.starts_in_slip[who] |= lasts & slips & ~self.begun[who]
         self.ends_in_slip[who] = np.where(lasts, slips, last)

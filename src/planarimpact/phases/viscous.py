@@ -144,7 +144,8 @@ class Viscous:
         kind, g = self.kind[who], self.g[who]
         stick, ends, forward = kind == STICK, event == SEPARATION, event == FORWARD
         slides, stops, settles = ~ends & stick, ~stick & forward, ~stick & (event == BACKWARD)
-        self.order.add(who, ~stick, passed.time)
+        impulse = passed.integral[U] + tau * passed.integral[V]
+        self.order.add(who, ~stick, impulse)
         self.work[who] += passed.work
         self.peak_friction[who] = np.maximum(self.peak_friction[who], passed.largest)
         z[W] = np.where(
