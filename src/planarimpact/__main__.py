@@ -155,9 +155,7 @@ def _rebound(options: argparse.Namespace) -> None:
 def _history(options: argparse.Namespace) -> None:
     x, groups, (family, _, loss) = options.incidence, _groups(options), options.model.partition(".")
     checks.impact(x, *groups.values())
-    if not loss:
-        names = models.losses(family).values()
-        checks.require_loss(options.restitution, names, "a model with a loss")
+    models.rebound(options.model, 0.0, **groups)  # refuses what this model does not have
     result: History | ContinuumHistory
     if family == "continuum":
         _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")

@@ -23,7 +23,7 @@ import numpy as np
 from planarimpact import continuum, lumped, rigid, spheres
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike
-from planarimpact.common.losses import LUMPED, SPHERES, Loss
+from planarimpact.common.losses import LOSSES, LUMPED, SPHERES, Loss
 from planarimpact.common.results import Rebound
 from planarimpact.models import laws, timestep
 
@@ -261,19 +261,6 @@ def _refuse_other_convention(model: Model, restitution: float) -> None:
         )
 
 
-def losses(model: str) -> dict[str, str]:
-    """Names of the models that are a model with a loss, by that loss.
-
-    Arguments and errors: `planarimpact.models`.
-
-    Examples
-    --------
-    >>> losses("lumped")["hysteretic"]
-    'lumped.hysteretic'
-    """
-    return {other.loss: name for name, other in MODELS.items() if name == f"{model}.{other.loss}"}
-
-
 def _elastic(
     name: str,
     solve: Callable[..., Rebound],
@@ -287,7 +274,8 @@ def _elastic(
     """Solve with the loss left out, for e = 1 alone; a refusal names the models with a loss."""
     groups = incidence, mass_ratio, stiffness_ratio, restitution
     checks.impact(*groups)
-    checks.require_loss(restitution, losses(name).values(), "a model with a loss")
+    lossy = [f"{name}.{loss.name}" for loss in LOSSES if loss.model == name]
+    checks.require_loss(restitution, lossy, "a model with a loss")
     return solve(*groups, **settings)
 
 
