@@ -242,7 +242,10 @@ def real(name: str, value: ArrayLike) -> Array:
 
 
 def incidence(value: ArrayLike) -> Array:
-    """Check an incidence x = v1(0)/(mu v2(0)): of any sign, and as small as it may be."""
+    """Check an incidence x = v1(0)/(mu v2(0)), of any sign.
+
+    A tiny one is not refused: velocities are in proportion to it. Below 1e-300 digits are lost.
+    """
     return finite("incidence", value)
 
 
