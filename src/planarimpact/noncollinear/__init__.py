@@ -162,9 +162,9 @@ def rebound(
     RuntimeWarning
         If the solver gives up some impacts of an array: their numbers are NaN, the others are
         solved. The warning names the flat indices; they are `numpy.isnan(result.tangential)`. The
-        solver gives up after 40 000 steps. It needs some 15 000, and some seconds, where omega/Omega
-        is 1e4 or c^2 m1 m2 is 1e-7 from 1, and half as many where e is 1e-3 and friction holds the
-        contact closed. Nearer to 1 it gives some contacts up, at 1e-8 every fifth.
+        solver gives up after 40 000 steps. A contact needs some 15 000, which take seconds, where
+        omega/Omega is 1e4 or c^2 m1 m2 is 1e-7 from 1, and 8 000 where friction holds it closed
+        with e = 1e-3. Nearer to 1 some are given up.
 
     Notes
     -----

@@ -8,7 +8,6 @@ contact point of positive depth in the tangential direction. Friction and normal
 where they oppose positive velocities of the (first) body.
 """
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -232,10 +231,3 @@ def motion_after(
     )
     spin_change = (normal * offset - friction * depth) / mass / gyration**2
     return Motion(tangential - friction / mass, approach - normal / mass, spin + spin_change)
-
-
-def refuse_overflow(names: Iterable[str], fields: Iterable[Array]) -> None:
-    """Refuse results that float64 cannot hold."""
-    for name, field in zip(names, fields, strict=False):
-        if not np.isfinite(field).all():
-            raise InputError(f"{name} of the result is beyond float64: choose other units")
