@@ -3,8 +3,8 @@
 A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
 on it with Coulomb friction. `by_loss` has the solver of each loss of energy, `stick_slip` the
-phases in closed form, `slip_onset` where slip starts, `normal` the normal motion. Histories, and
-impacts with dashpots (`dashpots`), are followed by `planarimpact.phases`.
+phases in closed form, `slip_onset` where slip starts. Histories, and impacts with
+dashpots, are followed by `planarimpact.phases`.
 
 The keyword `loss` names what takes the normal energy where e < 1, one of `LOSSES`: "hysteretic" is
 the paper's. `planarimpact.common.losses` says what each one is. At e = 1 all are the same model.

@@ -1,9 +1,9 @@
 """Where slip starts: the first instant of stick at which friction |T| reaches its limit.
 
 The limit is Coulomb's: the normal force N, as friction is in units of mu.
-T = A sin(theta) and N = sin(eta), with the angle `eta` of `normal`. A prime is the derivative with
-respect to the time, counted as `eta`: eta' = 1 in compression and -1 in restitution, where `eta`
-falls to 0; theta' = rate. A half-wave of T lies between two zeros of T.
+T = A sin(theta) and N = sin(eta), with the angle `eta` of `stick_slip`. A prime is the derivative
+with respect to the time, counted as `eta`: eta' = 1 in compression and -1 in restitution, where
+`eta` falls to 0; theta' = rate. A half-wave of T lies between two zeros of T.
 
 The root is searched only where it is alone:
 

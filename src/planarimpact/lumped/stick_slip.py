@@ -5,10 +5,13 @@ and normal force, with friction T in mu times that; omega^2 = beta/zeta^2:
 
     w' = -beta T,   T = s/zeta^2,   stick: s' = w while |T| <= N,   slip: T = side N.
 
+Both halves of the contact have one angle `eta` from 0 to pi/2, which vanishes with the force
+(Table 1). In compression eta = Omega t grows from 0; in restitution eta = Omega (tf - t)/e falls to
+0. So N = sin(eta) in both, and no digits are lost near separation, where both forces vanish.
+
 In stick T = A sin(theta) and w = sqrt(beta zeta^2) A cos(theta): a phase is its amplitude A and
-its angle. The angle `eta` of `normal` stands for the time; by it theta has the rate omega in
-compression and e omega in restitution. Slip ends in closed form; `slip_onset` searches where it
-starts.
+its angle theta, which has by eta the rate omega in compression and e omega in restitution. Slip
+ends in closed form; `slip_onset` searches where it starts.
 
 Errors do not grow: any two solutions approach each other in the tangential energy
 w^2/(2 beta) + zeta^2 T^2/2, and an event misplaced by epsilon moves the result by the order of
@@ -30,7 +33,7 @@ from planarimpact.common.angles import HALF_PI, sin_cos
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import ConvergenceError
 from planarimpact.common.results import Regime
-from planarimpact.lumped import normal, slip_onset
+from planarimpact.lumped import slip_onset
 
 
 class Impacts(NamedTuple):
@@ -174,7 +177,7 @@ def _break_in_compression(which: Integers, impacts: Impacts, outcome: Outcome) -
     omega = np.sqrt(beta / zeta2)
     eta = slip_onset.in_compression(x, zeta2, omega)
     w_onset = x * np.cos(omega * eta)
-    passed = normal.impulse(eta)
+    passed = 2 * np.sin(eta / 2) ** 2  # the normal impulse until then
     w_compressed = w_onset - beta * (1 - passed)
     w_final = w_onset - beta * (1 + e - passed)
     # Twice the work: normal impulse times both slip velocities at its ends. In compression the
@@ -224,7 +227,10 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome) -> None:
         eta, rho, wave = slip_onset.in_restitution(stick.eta, stick.theta, amplitude, rate)
         side = stick.side * (1 - 2 * (wave - 2 * np.floor(wave / 2)))
         w_onset = omega * zeta2 * amplitude * sin_cos(rho)[1]
-        force, ahead = normal.force_and_impulse(eta)
+        # N, and the normal impulse to come over e: from one tangent, the cheapest function.
+        tangent = np.tan(eta / 2)
+        force = 2 * tangent / (1 + tangent * tangent)
+        ahead = tangent * force
         w_final = w_onset - beta * e * ahead
         outcome.velocity[which] = side * w_final
         if count == 0:  # N falls: no later stick or slip has more friction
