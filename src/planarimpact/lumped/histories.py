@@ -31,10 +31,7 @@ def of_springs(mirror: float, impact: Impacts, samples: int) -> History:
             time = time / compression
         states = z[N], mirror * z[F], mirror * z[Q], mirror * impact.zeta2 * z[F]
         columns.append(np.stack([time, *states]))
-        if before and phase.unloading and not before.unloading:
-            events.append((EventKind.MAXIMUM_COMPRESSION, columns[-1][:, 0]))
-        if not (before and before.slips == phase.slips):
-            events.append((_kind(phase.slips), columns[-1][:, 0]))
+        events += [(kind, columns[-1][:, 0]) for kind in phase.events(before)]
         before = phase
     if e == 0:
         events.append((EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1]))
@@ -59,8 +56,9 @@ def of_dashpots(mirror: float, impact: Impacts, samples: int) -> History:
             friction = (spring + tau * z[viscous.W]) / zeta2
         tangential = (mirror * field for field in (friction, z[viscous.W], spring))
         columns.append(np.stack([time / half, normal, *tangential]))
-        events.append((_kind(bool(side)), columns[-1][:, 0]))
-    middle = min((block for block in columns), key=lambda block: np.abs(block[0] - 1).min())
+        kind = EventKind.SLIP if side else EventKind.STICK
+        events.append((kind, columns[-1][:, 0]))
+    middle = min(columns, key=lambda block: np.abs(block[0] - 1).min())
     place = np.abs(middle[0] - 1).argmin()
     middle[0, place] = 1.0
     events.append((EventKind.MAXIMUM_COMPRESSION, middle[:, place]))
@@ -80,8 +78,3 @@ def _followed(impact: Impacts) -> tuple[OffCentre, list[Step]]:
     steps: list[Step] = []
     closed.solve(contact, steps)
     return contact, steps
-
-
-def _kind(slips: bool) -> EventKind:
-    """The event where a phase starts."""
-    return EventKind.SLIP if slips else EventKind.STICK

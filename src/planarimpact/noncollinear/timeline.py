@@ -86,9 +86,10 @@ def timeline(
             first = blocks[-1][:, -1]  # the force jumps, after the events
         elif before:
             blocks[-1] = blocks[-1][:, :-1]  # the end of a phase is the start of the next one
-        events += [(kind, first) for kind in _kinds(phase, before)]
+        events += [(kind, first) for kind in phase.events(before)]
         blocks.append(block)
         before = phase
+    events.insert(0, (EventKind.CONTACT, blocks[0][:, 0]))
     last = blocks[-1][:, -1]
     if before and not before.unloading:
         events.append((EventKind.MAXIMUM_COMPRESSION, last))
@@ -102,16 +103,3 @@ def _event(kind: EventKind, state: Array) -> Event:
     """An event, from its state in the order of `NoncollinearHistory`."""
     time, normal_force, friction, tangential, _, _, spring = map(float, state)
     return Event(kind, time, normal_force, friction, tangential, spring)
-
-
-def _kinds(phase: Phase, before: Phase | None) -> list[EventKind]:
-    """Events where a phase starts."""
-    kind = EventKind.SLIP if phase.slips else EventKind.STICK
-    if before is None:
-        return [EventKind.CONTACT, kind]
-    kinds = []
-    if phase.unloading != before.unloading:
-        kinds.append(EventKind.MAXIMUM_COMPRESSION if phase.unloading else EventKind.RELOADING)
-    if phase.slips != before.slips:
-        kinds.append(kind)
-    return kinds

@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.results import EventKind
 from planarimpact.phases import Passed
 from planarimpact.phases.runs import Order
 
@@ -35,6 +36,15 @@ class Phase(NamedTuple):
     slips: bool
     unloading: bool
     side: float = 0.0
+
+    def events(self, before: "Phase | None") -> list[EventKind]:
+        """Events where it starts, after another phase or at contact."""
+        kind = EventKind.SLIP if self.slips else EventKind.STICK
+        if before is None:
+            return [kind]
+        turn = EventKind.MAXIMUM_COMPRESSION if self.unloading else EventKind.RELOADING
+        turns = [turn] if self.unloading != before.unloading else []
+        return turns + ([kind] if self.slips != before.slips else [])
 
 
 class OffCentre:
