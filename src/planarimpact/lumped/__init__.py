@@ -10,9 +10,8 @@ The keyword `loss` names what takes the normal energy where e < 1, one of `LOSSE
 the paper's. `planarimpact.common.losses` says what each one is. At e = 1 all are the same model.
 
 All four functions take arguments of `rebound`, which says what they mean and their ranges:
-`incidence`, `mass_ratio`, `stiffness_ratio`, `restitution` and `loss`. `history` and
-`friction_work` are of one contact: they take scalars alone. An argument not allowed raises
-`InputError`.
+`incidence`, `mass_ratio`, `stiffness_ratio`, `restitution` and `loss`. `history` is of one contact:
+it takes scalars alone. An argument not allowed raises `InputError`.
 
 Errors that these functions state are those of the solution. The model itself is further off. For a
 solid sphere of Poisson's ratio 0.3 and e = 1 its velocity differs from the elastic continuum by up
@@ -107,8 +106,7 @@ def rebound(
     """
     chosen = LUMPED[checks.loss(loss, LUMPED)]
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    size, *groups = np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups)
-    return Rebound.shaped(x, *by_loss.solve(chosen, Impacts(size, *groups)))
+    return Rebound.shaped(x, *by_loss.solve(chosen, _flat(x, *groups)))
 
 
 @checks.default_errors
@@ -180,28 +178,31 @@ def history(
     """
     samples = checks.count("samples", samples, 2)
     chosen = LUMPED[checks.loss(loss, LUMPED)]
-    mirror, impact = _one_impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    return by_loss.history(chosen, mirror, impact, samples)
+    x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    if x.ndim:
+        raise checks.InputError(f"shape = {x.shape}: one contact takes scalars")
+    return by_loss.history(chosen, float(np.copysign(1.0, x)), _flat(x, *groups), samples)
 
 
 @checks.default_errors
 def friction_work(
-    incidence: float,
-    mass_ratio: float = 3.5,
-    stiffness_ratio: float = 1.21,
-    restitution: float = 1.0,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
     *,
     loss: str = "hysteretic",
-) -> float:
+) -> Array:
     """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
 
-    This checks `rebound(...).dissipation`, which comes from the balance of energy. The two differ
-    by what the tangential spring loses when e = 0. With viscous loss and e < 1 both are the same
-    closed integral. Arguments and errors: `planarimpact.lumped`.
+    This checks `rebound(...).dissipation`, which comes from the balance of energy: the contacts are
+    followed by `planarimpact.phases`. The two differ by what the tangential spring loses when
+    e = 0. With viscous loss and e < 1 both are the same integral. Arguments and errors:
+    `planarimpact.lumped`.
 
     Returns
     -------
-    float
+    ndarray of float64 or float
         In mu^2 m2 v2(0)^2.
 
     Examples
@@ -211,16 +212,10 @@ def friction_work(
     True
     """
     chosen = LUMPED[checks.loss(loss, LUMPED)]
-    _, impact = _one_impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    return by_loss.friction_work(chosen, impact)
-
-
-def _one_impact(
-    incidence: float, mass_ratio: float, stiffness_ratio: float, restitution: float
-) -> tuple[float, Impacts]:
-    """Sign of the incidence, and one impact with its size."""
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    if x.ndim:
-        raise checks.InputError(f"shape = {x.shape}: one contact takes scalars")
-    impact = Impacts(np.abs(x).reshape(1), *(group.reshape(1) for group in groups))
-    return float(np.copysign(1.0, x)), impact
+    return by_loss.friction_work(chosen, _flat(x, *groups)).reshape(x.shape)[()]
+
+
+def _flat(x: Array, *groups: Array) -> Impacts:
+    """Impacts by the size of their incidence, flat."""
+    return Impacts(np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups))

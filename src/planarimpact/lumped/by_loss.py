@@ -43,11 +43,12 @@ def history(loss: Loss, mirror: float, impact: Impacts, samples: int) -> History
     return histories.of_springs(mirror, _springs(loss, impact), samples)
 
 
-def friction_work(loss: Loss, impact: Impacts) -> float:
-    """Work of friction in one contact, by the loop of `planarimpact.phases`."""
-    if _damped(loss, impact)[0]:
-        return float(dashpots.solve(impact).dissipation[0])
-    return histories.friction_work(_springs(loss, impact))
+def friction_work(loss: Loss, impacts: Impacts) -> Array:
+    """Work of friction of impacts, by the loop of `planarimpact.phases`."""
+    damped = np.flatnonzero(_damped(loss, impacts))
+    work = histories.friction_work(_springs(loss, impacts))
+    work[damped] = dashpots.solve(impacts.take(damped)).dissipation
+    return work
 
 
 def _solve_chunk(loss: Loss, impacts: Impacts) -> Outcome:

@@ -1,7 +1,8 @@
-"""One lumped contact followed by `planarimpact.phases`: its history, and the work of friction."""
+"""Lumped contacts followed by `planarimpact.phases`: history of one, work of friction of many."""
 
 import numpy as np
 
+from planarimpact.common.arrays import Array
 from planarimpact.common.results import EventKind, History
 from planarimpact.lumped.stick_slip import Impacts
 from planarimpact.phases import Step, closed, follow, viscous
@@ -11,7 +12,8 @@ from planarimpact.phases.runs import runs
 
 def of_springs(mirror: float, impact: Impacts, samples: int) -> History:
     """On the paper's springs; `mirror` is the sign of x."""
-    _, steps = _followed(impact)
+    steps: list[Step] = []
+    closed.solve(_springs(impact), steps)
     e = float(impact.e[0])
 
     def unit(phase: Phase) -> float:
@@ -65,16 +67,16 @@ def of_dashpots(mirror: float, impact: Impacts, samples: int) -> History:
     return History.joined(columns, sorted(events, key=lambda event: event[1][0]))
 
 
-def friction_work(impact: Impacts) -> float:
+def friction_work(impacts: Impacts) -> Array:
     """Work of friction on the paper's springs, integrated over the phases of slip."""
-    contact, _ = _followed(impact)
-    return float((contact.work - impact.zeta2 * contact.z[F] ** 2 / 2)[0])
+    contacts = _springs(impacts)
+    closed.solve(contacts)
+    # Where rounding hides the last slip, before N = 0, it takes what the spring still has.
+    strain = impacts.zeta2 * contacts.z[F] ** 2 / 2
+    return contacts.work - np.where(impacts.e == 0, strain, 0.0)
 
 
-def _followed(impact: Impacts) -> tuple[OffCentre, list[Step]]:
-    """One contact on springs, friction in units of mu, followed to its end, and its steps."""
-    x, beta, zeta2, e = impact
-    contact = OffCentre(x, beta, np.zeros(1), zeta2, np.ones(1), e)
-    steps: list[Step] = []
-    closed.solve(contact, steps)
-    return contact, steps
+def _springs(impacts: Impacts) -> OffCentre:
+    """Contacts on springs, with friction in units of mu."""
+    x, beta, zeta2, e = impacts
+    return OffCentre(x, beta, np.zeros_like(x), zeta2, np.ones_like(x), e)
