@@ -12,6 +12,8 @@ from planarimpact.phases import TERMS, Step
 
 # A phase of less time or normal impulse is one of rounding: two events are at one instant.
 SHORT, LEAST_IMPULSE = 1e-13, 1e-15
+# Share of a contact's time within which an instant counts as that of an event.
+BESIDE = 1e-12
 
 
 class Run(NamedTuple):
@@ -33,9 +35,10 @@ def runs(steps: list[Step], shares: Array, scale: Callable[[Any], float]) -> lis
     ends = np.cumsum(
         [scale(phase) * span[-1] for (phase, _), span in zip(phases, spans, strict=True)]
     )
-    grid, start, found = shares * ends[-1], 0.0, []
+    grid, beside, start, found = shares * ends[-1], BESIDE * ends[-1], 0.0, []
     for (phase, own), span, end in zip(phases, spans, ends, strict=True):
-        inside = grid[(grid > start) & (grid < end)]
+        # An instant of the grid that rounding puts beside an event is that of the event.
+        inside = grid[(grid > start + beside) & (grid < end - beside)]
         # In its own unit of time a phase keeps the digits of a short one.
         elapsed = np.concatenate([[0.0], (inside - start) / scale(phase), span[-1:]])
         which = np.minimum(np.searchsorted(span, elapsed), span.size - 1)
