@@ -60,7 +60,8 @@ def of_dashpots(mirror: float, impact: Impacts, samples: int) -> History:
         columns.append(np.stack([time / half, normal, *tangential]))
         kind = EventKind.SLIP if side else EventKind.STICK
         events.append((kind, columns[-1][:, 0]))
-    middle = min(columns, key=lambda block: np.abs(block[0] - 1).min())
+    # Of two phases that meet there the later one: the end of the other is left out.
+    middle = min(columns[::-1], key=lambda block: np.abs(block[0] - 1).min())
     place = np.abs(middle[0] - 1).argmin()
     middle[0, place] = 1.0
     events.append((EventKind.MAXIMUM_COMPRESSION, middle[:, place]))

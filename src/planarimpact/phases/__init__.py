@@ -72,7 +72,9 @@ _Fields = TypeVar("_Fields", bound=tuple[Any, ...])
 class Contacts(Protocol):
     """What `follow` asks of n contacts. `who` are the indices of some of them, k in number.
 
-    A contact that is alone may be there twice.
+    A contact may be there alone, or twice. Sum over no axis in these methods, as NumPy does that
+    for one contact in another order than for many: its last bits would depend on the others. A
+    contact may count the time of a phase in a unit of its own; what has passed is in that unit.
     """
 
     def matrix(self, who: Integers) -> Array:

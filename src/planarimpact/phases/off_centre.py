@@ -9,7 +9,8 @@ friction, e restitution; g = +1 or -1 direction of slip, 0 in stick.
     N' = y,   y' = -N + C F,   V' = -beta F + C N,   stick: F' = V/zeta^2,   slip: F = g mu N.
 
 On the line of unloading N' = y/e^2. With time and y in units of e that is N' = y again, and the
-other rates get the factor s = e, which is 1 in loading. In place of V the state has
+other rates get the factor s = e, which is 1 in loading. What `follow` sums up is in that time too:
+so impulses get the factor s, and the work has it from the velocity of slip. In place of V the state has
 Q = V + C s y: Q' = -s (beta - C^2) F keeps its digits where the mass is nearly singular.
 
 A contact starts in slip where |V| >= mu zeta^2. At that limit the speed of slip starts at zero, and
@@ -53,12 +54,12 @@ class OffCentre:
     Attributes
     ----------
     z : ndarray, shape (4, n)
-        States; at the end y and V are those of separation, and Q is V.
+        States. After `closed.solve` y has the unit of V, also in unloading, and V is in place of Q.
     impulses : ndarray, shape (2, n)
         Of friction and of the normal force.
     work, duration, peak, peak_friction : ndarray
-        Of friction, with the strain energy of the tangential spring at separation, which is lost;
-        of the contact; largest N, largest |F|.
+        Of friction, to which `closed.solve` adds the strain energy that the tangential spring has
+        at separation; of the contact; largest N, largest |F|.
     order : Order
         Of stick and slip.
     jams : ndarray of bool
