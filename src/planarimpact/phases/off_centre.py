@@ -10,8 +10,8 @@ friction, e restitution; g = +1 or -1 direction of slip, 0 in stick.
 
 On the line of unloading N' = y/e^2. With time and y in units of e that is N' = y again, and the
 other rates get the factor s = e, which is 1 in loading. What `follow` sums up is in that time too:
-so impulses get the factor s, and the work has it from the velocity of slip. In place of V the state has
-Q = V + C s y: Q' = -s (beta - C^2) F keeps its digits where the mass is nearly singular.
+impulses get the factor s, and the work has it from the velocity of slip. In place of V the state
+has Q = V + C s y: Q' = -s (beta - C^2) F keeps its digits where the mass is nearly singular.
 
 A contact starts in slip where |V| >= mu zeta^2. At that limit the speed of slip starts at zero, and
 if it falls the contact sticks at once.
