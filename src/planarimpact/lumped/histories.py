@@ -7,7 +7,7 @@ from planarimpact.common.results import EventKind, History
 from planarimpact.lumped.stick_slip import Impacts
 from planarimpact.phases import Step, closed, follow, viscous
 from planarimpact.phases.off_centre import F, N, OffCentre, Phase, Q
-from planarimpact.phases.runs import runs
+from planarimpact.phases.runs import BESIDE, runs
 
 
 def of_springs(mirror: float, impact: Impacts, samples: int) -> History:
@@ -26,11 +26,12 @@ def of_springs(mirror: float, impact: Impacts, samples: int) -> History:
     columns, events = [], []
     before = None
     for phase, time, z in found:
-        # Both halves are as long as they are by theory, to the last digit.
-        if phase.unloading:
-            time = 1 + e * ((time - compression) / restitution)
-        else:
-            time = time / compression
+        # Both halves are as long as they are by theory, to the last digit. What rounding puts
+        # beside maximum compression is there.
+        start, span = (compression, restitution) if phase.unloading else (0.0, compression)
+        share = (time - start) / span
+        share = np.where(np.abs(share - (not phase.unloading)) <= BESIDE, np.round(share), share)
+        time = 1 + e * share if phase.unloading else share
         states = z[N], mirror * z[F], mirror * z[Q], mirror * impact.zeta2 * z[F]
         columns.append(np.stack([time, *states]))
         events += [(kind, columns[-1][:, 0]) for kind in phase.events(before)]
