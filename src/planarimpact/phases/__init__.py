@@ -160,9 +160,7 @@ def follow(
         if not who.size:
             break
         parts = [slice(start, start + BLOCK) for start in range(0, who.size, BLOCK)]
-        ends = [
-            _advance(_views(plan, p), np.take(z, who[p], axis=1), _views(passed, p)) for p in parts
-        ]
+        ends = [_advance(_views(plan, p), z.take(who[p], axis=1), _views(passed, p)) for p in parts]
         if steps is not None:
             [(series, share, *_)] = ends
             step = series[..., 0], float(plan.length[0]), float(share[0])
@@ -172,7 +170,7 @@ def follow(
         hit = np.flatnonzero(event >= 0)
         if not hit.size:
             continue
-        at_event = np.take(z, who[hit], axis=1)
+        at_event = z.take(who[hit], axis=1)
         ended = contacts.switch(who[hit], at_event, event[hit], _taken(passed, hit))
         z[:, who[hit]] = at_event
         for total in passed:
@@ -222,7 +220,7 @@ class _End(NamedTuple):
 
 def _taken(fields: _Fields, which: Integers) -> _Fields:
     """Some of the contacts of a tuple of arrays, in the order in memory that is fast."""
-    return type(fields)(*(np.take(field, which, axis=-1) for field in fields))
+    return type(fields)(*(field.take(which, axis=-1) for field in fields))
 
 
 def _views(fields: _Fields, part: slice) -> _Fields:
@@ -288,7 +286,7 @@ def _first_event(plan: _Plan, series: Array) -> tuple[Array, Integers]:
     tied = _not_alone(np.flatnonzero(at_zero[row, contact]))
     if tied.size:
         which = contact[tied]
-        matrix, z = np.take(plan.matrix, which, axis=-1), np.take(series[0], which, axis=-1)
+        matrix, z = plan.matrix.take(which, axis=-1), series[0].take(which, axis=-1)
         terms = _series(np.abs(matrix), np.abs(z), DECIDING)
         own = np.ascontiguousarray(sizes[row[tied], :-1, which].T)
         noise = np.einsum("dn,kdn->kn", own, terms)
@@ -312,7 +310,7 @@ def _largest(polynomials: Array, values: Array) -> Array:
     outward = np.where(top == 0, -polynomials[1], np.where(top == last, end_slope, -best))
     inner = _not_alone(np.flatnonzero(np.sign(outward) != np.sign(best)))
     if inner.size:
-        polynomials = np.take(polynomials, inner, axis=1)
+        polynomials = polynomials.take(inner, axis=1)
         derivatives, t = _derivatives(polynomials, 3), NODES[top[inner]]
         for _ in range(NEWTON_STEPS):
             _, slope, bend = np.einsum("kn,bkn->bn", _powers(t), derivatives)
@@ -367,7 +365,7 @@ def _first_zero(polynomials: Array) -> Array:
         if not going.all():
             going = _not_alone(np.flatnonzero(going))
             left, t, window, largest = left[going], t[going], window[going], largest[going]
-            derivatives = np.take(derivatives, going, axis=-1)
+            derivatives = derivatives.take(going, axis=-1)
             if not left.size:
                 break
     zero[left] = t  # a zero of higher order

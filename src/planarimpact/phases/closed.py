@@ -137,6 +137,8 @@ def solve(contacts: OffCentre, steps: list[Step] | None = None) -> Integers:
         given_up = np.append(given_up, follow(contacts, contacts.z, who, steps))
         at_turn = contacts.ends_at_turn[who] & (contacts.g[who] == 0)
         who = who[at_turn & ~np.isin(who, given_up)]
+        if not who.size:
+            break
         closed = Closed(contacts, who)
         kept = closed.first_oscillation()
         given_up = np.append(given_up, who[follow(closed, closed.z, kept, steps)])
