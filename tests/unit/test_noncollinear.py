@@ -119,6 +119,15 @@ def test_regimes_at_round_numbers(
     assert result.regime.name == regime and not result.jams
 
 
+def test_friction_is_largest_in_the_middle_of_a_swing_too():
+    """In stick it swings to -0.0336 N, and at separation it is 0.0333 N."""
+    impact = -0.13198714064363087, 1.0, InverseMass(0.4985177194559317, 0.4603085237375929, 1.0)
+    rest = 0.5030861863458862, 0.0, 1.9451418777045333
+    forces = paper_history(*impact, *rest, samples=20_001).friction_force
+    assert forces[-1] == pytest.approx(0.0333, abs=1e-4)
+    assert paper_rebound(*impact, *rest).peak_friction == pytest.approx(-forces.min(), rel=1e-7)
+
+
 def test_reloading_follows_the_line_of_unloading_up_to_the_earlier_peak():
     """Friction compresses the contact again after its first maximum."""
     mass = noncollinear.inverse_mass(1.032, 0.9537, -2.2135, 1.59155)

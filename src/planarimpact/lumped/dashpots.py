@@ -57,6 +57,7 @@ def solve(impacts: Impacts) -> Outcome:
         outcome.velocity[sticks] = contacts.z[-1]
         outcome.peak_friction[sticks] = contacts.peak_friction / largest_force
         outcome.dissipation[sticks] = contacts.work
+        contacts.order.ends_in_slip[:] = True  # also where the last slip is as short as rounding
         outcome.regime[sticks] = contacts.order.regimes()
         outcome.regime[x == 0] = Regime.STICK
     # Rounding must not create energy.

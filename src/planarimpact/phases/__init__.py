@@ -301,23 +301,23 @@ def _first_event(plan: _Plan, series: Array) -> tuple[Array, Integers]:
 def _largest(polynomials: Array, values: Array) -> Array:
     """Largest size on 0 to 1 of polynomials (TERMS, n), with their values at NODES.
 
-    Newton's method goes from the node of the largest size to the zero of the slope beside it.
+    Newton's method goes from each node with a size as large as at its neighbours to the zero of the
+    slope beside it. An end is such a node if the slope there leads inward.
     """
-    top, last = np.abs(values).argmax(axis=0), NODES.size - 1
-    best = values[top, np.arange(top.size)]
-    # At an end the size is largest if the slope there leads outward.
-    end_slope = (DEGREE * polynomials).sum(axis=0)
-    outward = np.where(top == 0, -polynomials[1], np.where(top == last, end_slope, -best))
-    inner = _not_alone(np.flatnonzero(np.sign(outward) != np.sign(best)))
-    if inner.size:
-        polynomials = polynomials.take(inner, axis=1)
-        derivatives, t = _derivatives(polynomials, 3), NODES[top[inner]]
+    sizes, end_slope = np.abs(values), (DEGREE * polynomials).sum(axis=0)
+    before = np.where(polynomials[1] * values[0] > 0, 0.0, np.inf)
+    after = np.where(end_slope * values[-1] < 0, 0.0, np.inf)
+    tops = (sizes >= np.vstack([before, sizes[:-1]])) & (sizes >= np.vstack([sizes[1:], after]))
+    largest = sizes.max(axis=0)
+    node, which = np.divmod(_not_alone(np.flatnonzero(tops)), largest.size)
+    if which.size:
+        derivatives, t = _derivatives(polynomials.take(which, axis=1), 3), NODES[node]
         for _ in range(NEWTON_STEPS):
             _, slope, bend = np.einsum("kn,bkn->bn", _powers(t), derivatives)
             t = np.clip(t - slope / np.where(bend == 0, 1.0, bend), 0.0, 1.0)
-        value = (_powers(t) * polynomials).sum(axis=0)
-        best[inner] = np.maximum(np.abs(best[inner]), np.abs(value))
-    return np.abs(best)
+        value = (_powers(t) * derivatives[0]).sum(axis=0)
+        np.maximum.at(largest, which, np.abs(value))
+    return largest
 
 
 def _derivatives(polynomials: Array, count: int) -> Array:

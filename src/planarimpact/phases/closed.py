@@ -144,6 +144,8 @@ def solve(contacts: OffCentre, steps: list[Step] | None = None) -> Integers:
         given_up = np.append(given_up, who[follow(closed, closed.z, kept, steps)])
         closed.end(contacts, who[kept], kept)
         who = who[kept[closed.reloads[kept]]]
+    # At separation friction vanishes by slip, also by one that is as short as rounding.
+    contacts.order.ends_in_slip |= ~contacts.ends_at_turn & (contacts.peak_friction > 0)
     contacts.z[Y] *= contacts.s
     contacts.z[Q] -= contacts.groups[1] * contacts.z[Y]
     contacts.work += contacts.groups[2] * contacts.z[off_centre.F] ** 2 / 2
