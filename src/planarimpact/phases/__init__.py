@@ -305,8 +305,8 @@ def _largest(polynomials: Array, values: Array) -> Array:
     slope beside it. An end is such a node if the slope there leads inward.
     """
     sizes, end_slope = np.abs(values), (DEGREE * polynomials).sum(axis=0)
-    before = np.where(polynomials[1] * values[0] > 0, 0.0, np.inf)
-    after = np.where(end_slope * values[-1] < 0, 0.0, np.inf)
+    before = np.where(np.sign(polynomials[1]) == np.sign(values[0]), 0.0, np.inf)
+    after = np.where(np.sign(end_slope) == -np.sign(values[-1]), 0.0, np.inf)
     tops = (sizes >= np.vstack([before, sizes[:-1]])) & (sizes >= np.vstack([sizes[1:], after]))
     largest = sizes.max(axis=0)
     node, which = np.divmod(_not_alone(np.flatnonzero(tops)), largest.size)
