@@ -142,18 +142,6 @@ def test_the_end_of_slip_within_a_step_is_not_missed():
         assert abs(at_separation(np.array(groups)[:, None], steps)[1] - exact) < 1e-5
 
 
-def test_error_falls_with_the_square_of_the_steps_and_better_extrapolated():
-    x = np.linspace(0.1, 5.7, 30)
-    groups = x, np.full(30, 3.5), np.full(30, 17 / 14)
-    _, exact = at_separation(groups, 2048)
-    errors = []
-    for steps in (64, 128, 256, 512):
-        errors.append(np.sqrt(np.mean(np.square(at_separation(groups, steps) - exact), axis=1)))
-    once, twice = np.log2(np.array(errors)[:-1] / np.array(errors)[1:]).T
-    assert (np.abs(once - 2) < 0.1).all(), once
-    assert np.mean(twice) > 2.2, twice
-
-
 # ---- with a loss ----
 
 # Incidence, mass ratio, stiffness ratio, restitution. In the first three the flow of compression

@@ -48,18 +48,6 @@ def test_the_table_is_what_its_command_writes():
     np.testing.assert_allclose(again, rebounds(x), atol=5.1e-6)
 
 
-def test_annuli_converge_with_the_square_of_the_circles():
-    """To the table, extrapolated too: its own circles are four times as many."""
-    x = np.array([2.0, 3.0, 4.0])  # where the steps matter least
-    exact = rebounds(x)
-    circles = 4, 8, 16, 32
-    found = [annuli.rebound(x, 3.5, STEEL, circles=n, steps=1024).velocity for n in circles]
-    error = np.max(np.abs(found - exact), axis=1)
-    assert all(3.0 < a / b < 5.5 for a, b in zip(error, error[1:], strict=False)), error
-    assert 1.8 < -np.polyfit(np.log(circles), np.log(error), 1)[0] < 2.2, error
-    assert np.max(np.abs(found[3] + (found[3] - found[2]) / 3 - exact)) < 5e-5
-
-
 def test_annuli_under_constant_normal_force_are_cattaneo_and_mindlin():
     path = np.array([0.0, 0.3, 0.6, 0.9, 0.5, 0.1, -0.4, -0.9])
     force = annuli.friction(np.ones(8), path, circles=80)
