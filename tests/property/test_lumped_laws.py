@@ -64,7 +64,7 @@ def rounding(groups, loss):
 def test_the_impacts_lie_on_both_sides_of_sticking_again(impacts):
     _, beta, zeta2, e = impacts
     fast = e * e > zeta2 / beta
-    assert min(fast.sum(), (~fast).sum()) > 1500
+    assert 0.1 < fast.mean() < 0.9
 
 
 def test_friction_creates_no_energy_and_keeps_its_limit(impacts, found):
