@@ -28,11 +28,6 @@ HEADER = [
 PROMISED = 1e-12
 
 
-def thresholds(beta, zeta2, e):
-    """Incidences at which the order of phases changes, or another model says so."""
-    return [zeta2, beta, max(zeta2, beta + e * (beta - zeta2)), (1 + e) * beta]
-
-
 def row(point):
     """One impact: groups as float64, outputs with 20 digits."""
     answer = viscous_precision.rebound(*point)

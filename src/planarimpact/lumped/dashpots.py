@@ -7,10 +7,11 @@ misplaced by epsilon moves the result by the order of epsilon^2.
 import numpy as np
 
 from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Integers
 from planarimpact.common.checks import ConvergenceError
 from planarimpact.common.results import Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
-from planarimpact.phases import follow
+from planarimpact.phases import MOST_STEPS, follow
 from planarimpact.phases.viscous import Viscous, damping
 
 # The range of the solver, besides that of the loss: elements this stiff, or heavy, take many steps.
@@ -52,8 +53,7 @@ def solve(impacts: Impacts) -> Outcome:
     if sticks.size:
         tau, largest_force = damping(e[sticks])
         contacts = Viscous(x[sticks], beta[sticks], zeta2[sticks], tau)
-        if follow(contacts, contacts.z).size:
-            raise ConvergenceError("a viscous impact has too many phases")
+        refuse_endless(follow(contacts, contacts.z))
         outcome.velocity[sticks] = contacts.z[-1]
         outcome.peak_friction[sticks] = contacts.peak_friction / largest_force
         outcome.dissipation[sticks] = contacts.work
@@ -65,3 +65,9 @@ def solve(impacts: Impacts) -> Outcome:
     np.maximum(outcome.dissipation, 0.0, out=outcome.dissipation)
     np.minimum(outcome.peak_friction, 1.0, out=outcome.peak_friction)
     return outcome
+
+
+def refuse_endless(given_up: Integers) -> None:
+    """Say that contacts do not come to an end, if `phases.follow` has given up some."""
+    if given_up.size:
+        raise ConvergenceError(f"{given_up.size} contacts do not end in {MOST_STEPS} steps")

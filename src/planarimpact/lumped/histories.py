@@ -4,6 +4,7 @@ import numpy as np
 
 from planarimpact.common.arrays import Array
 from planarimpact.common.results import EventKind, History
+from planarimpact.lumped.dashpots import refuse_endless
 from planarimpact.lumped.stick_slip import Impacts
 from planarimpact.phases import Step, closed, follow, viscous
 from planarimpact.phases.off_centre import F, N, OffCentre, Phase, Q
@@ -13,7 +14,7 @@ from planarimpact.phases.runs import BESIDE, runs
 def of_springs(mirror: float, impact: Impacts, samples: int) -> History:
     """On the paper's springs; `mirror` is the sign of x."""
     steps: list[Step] = []
-    closed.solve(_springs(impact), steps)
+    refuse_endless(closed.solve(_springs(impact), steps))
     e = float(impact.e[0])
 
     def unit(phase: Phase) -> float:
@@ -47,7 +48,7 @@ def of_dashpots(mirror: float, impact: Impacts, samples: int) -> History:
     tau, _ = viscous.damping(e)
     contact = viscous.Viscous(x, beta, zeta2, tau)
     steps: list[Step] = []
-    follow(contact, contact.z, steps=steps)
+    refuse_endless(follow(contact, contact.z, steps=steps))
     # The middle of the contact is where compression is largest.
     found = runs(steps, np.union1d(np.linspace(0.0, 1.0, samples), 0.5), lambda _: 1.0)
     half = found[-1].time[-1] / 2
@@ -72,7 +73,7 @@ def of_dashpots(mirror: float, impact: Impacts, samples: int) -> History:
 def friction_work(impacts: Impacts) -> Array:
     """Work of friction on the paper's springs, integrated over the phases of slip."""
     contacts = _springs(impacts)
-    closed.solve(contacts)
+    refuse_endless(closed.solve(contacts))
     # Where rounding hides the last slip, before N = 0, it takes what the spring still has.
     strain = impacts.zeta2 * contacts.z[F] ** 2 / 2
     return contacts.work - np.where(impacts.e == 0, strain, 0.0)

@@ -47,7 +47,7 @@ from planarimpact.common.arrays import Array, Booleans, Integers
 # than a rounding error.
 TERMS, REACH = 24, 2.0
 # Coefficients below this share of their terms count as zero. If as many as DECIDING do, all do.
-TIE, DECIDING = 1e-13, 8
+TIE, DECIDING = 1e-14, 8
 # Contacts that take a step together: their series fit a cache.
 BLOCK = 1024
 # A contact that takes more steps is given up; one with omega/Omega = 1e4 takes some 15 000.

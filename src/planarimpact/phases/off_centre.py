@@ -23,7 +23,7 @@ import numpy as np
 
 from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.common.results import EventKind
-from planarimpact.phases import Passed
+from planarimpact.phases import TIE, Passed
 from planarimpact.phases.runs import Order
 
 N, Y, F, Q = range(4)  # states
@@ -136,7 +136,14 @@ class OffCentre:
         velocity = z[Q] - coupling * s * z[Y]
         z[N] = np.where(separates, 0.0, np.where(reload, peak, z[N]))
         z[N] = np.where(slides & (mu > 1), np.abs(z[F]) / np.maximum(mu, 1.0), z[N])
-        velocity = np.where(stops, g * mu * zeta2 * z[Y] / s, velocity)
+        # A row that only touches zero may be found behind its minimum. Then no slip has begun, and
+        # the speed of slip is not zero but negative, by more than rounding.
+        speed = g * s * velocity - mu * zeta2 * z[Y]
+        rounding = (
+            3 * TIE * (s * (np.abs(z[Q]) + np.abs(coupling * s * z[Y])) + mu * zeta2 * np.abs(z[Y]))
+        )
+        halts = stops & ((passed.time > 0) | (np.abs(speed) <= rounding))
+        velocity = np.where(halts, g * mu * zeta2 * z[Y] / s, velocity)
         z[Y] = np.where(turns, 0.0, np.where(reload, s * z[Y], z[Y]))
         g = np.where(slides, np.where(event == FORWARD, 1.0, -1.0), g)
         z[F] = np.where(g != 0, g * mu * z[N], z[F])

@@ -64,7 +64,7 @@ def damping(restitution: Array) -> tuple[Array, Array]:
     angle, real = np.sqrt(np.maximum(np.abs(square), LEAST_SQUARE)), square > 0
     sine = np.where(real, np.sin(angle), np.sinh(np.where(real, 0.1, angle)))
     tau = 2 * goal * sine / angle  # 2 cos(delta), with all digits near e = 1 too
-    inner = np.exp((np.pi - 3 * angle) * goal / angle)  # where N' = 0
+    inner = np.exp(np.minimum(np.pi - 3 * angle, 0.0) * goal / angle)  # where N' = 0
     return tau, np.where(real & (angle > np.pi / 3), inner, tau)
 
 
@@ -148,12 +148,11 @@ class Viscous:
         self.order.add(who, ~stick, impulse)
         self.work[who] += passed.work
         self.peak_friction[who] = np.maximum(self.peak_friction[who], passed.largest)
-        z[W] = np.where(
-            stops, g * zeta2 * z[V] - np.where(kind == LAYER_SLIP, z[S] / tau, 0.0), z[W]
-        )
+        # Where slip begins or ends its velocity is zero, as T has no jump: that gives r with all its
+        # digits, where the difference of s and what it comes to has few.
         side = np.where(slides, np.where(forward, 1.0, -1.0), g)
-        followed = side * zeta2 * z[U]  # by the spring in slip
-        z[S] = np.where(slides, z[S] - followed, np.where(stops, z[S] + followed, z[S]))
+        left = tau * (side * zeta2 * z[V] - z[W])
+        z[S] = np.where(slides, left, np.where(stops, side * zeta2 * z[U] + left, z[S]))
         z[S] = np.where(settles, 0.0, z[S])
         self.g[who] = np.where(stops, 0.0, side)
         self.kind[who] = np.select(
