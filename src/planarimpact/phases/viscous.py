@@ -27,7 +27,7 @@ import numpy as np
 from planarimpact.common import roots
 from planarimpact.common.angles import HALF_PI
 from planarimpact.common.arrays import Array, Booleans, Integers
-from planarimpact.phases import Passed
+from planarimpact.phases import TIE, Passed
 from planarimpact.phases.runs import Order
 
 U, V, S, W = range(4)  # states
@@ -148,10 +148,12 @@ class Viscous:
         self.order.add(who, ~stick, impulse)
         self.work[who] += passed.work
         self.peak_friction[who] = np.maximum(self.peak_friction[who], passed.largest)
-        # Where slip begins or ends its velocity is zero, as T has no jump: that gives r with all its
-        # digits, where the difference of s and what it comes to has few.
+        # Where slip begins or ends its velocity is zero, as T has no jump. That gives r with all
+        # its digits, where the difference of s and what it comes to has few.
         side = np.where(slides, np.where(forward, 1.0, -1.0), g)
-        left = tau * (side * zeta2 * z[V] - z[W])
+        decline = side * zeta2 * z[V] - z[W]  # r/tau
+        is_zero = np.abs(decline) <= TIE * (zeta2 * np.abs(z[V]) + np.abs(z[W]))
+        left = np.where(is_zero, 0.0, tau * decline)
         z[S] = np.where(slides, left, np.where(stops, side * zeta2 * z[U] + left, z[S]))
         z[S] = np.where(settles, 0.0, z[S])
         self.g[who] = np.where(stops, 0.0, side)
