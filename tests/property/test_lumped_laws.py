@@ -164,7 +164,8 @@ def test_loss_and_compliance_vanish_without_a_jump(impacts, loss):
 def test_one_and_many_and_history_agree(impacts, found, loss):
     """Along a contact friction keeps its limit, and the tangential energy never grows."""
     x, beta, zeta2, e = impacts
-    few = np.flatnonzero(e * np.sqrt(beta) <= 300 * np.sqrt(zeta2))
+    # With more steps a history loses digits, as it says, and takes seconds.
+    few = np.flatnonzero((e * np.sqrt(beta) <= 300 * np.sqrt(zeta2)) & (beta <= 1e6 * zeta2))
     for lane in few[:: few.size // 120]:
         x, beta, zeta2, e = point = tuple(map(float, impacts[:, lane]))
         alone = lumped.rebound(*point, loss=loss)

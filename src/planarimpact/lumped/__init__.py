@@ -75,7 +75,7 @@ def rebound(
     InputError
         If an argument is not a finite real number in its range, or shapes do not broadcast. With
         viscous loss and e < 1 the range is smaller: restitution from 1e-3 (a viscous element does
-        not stop a body for good), mass ratio to 1e6, stiffness ratio from 1e-4 to 1e6 times the
+        not stop a body for good), mass ratio to 1e6, stiffness ratio from 0.01 to 1e6 times the
         mass ratio.
 
     Notes
@@ -89,7 +89,8 @@ def rebound(
     incident one.
 
     With viscous loss the errors are at most 1e-9: of the velocity relative to max(1, x, beta),
-    of the peak to 1, of the dissipation to x^2/(2 beta) or, if that is smaller, (1 + e) x.
+    of the peak to 1, of the dissipation to x^2/(2 beta) or, if that is smaller, (1 + e) x. The
+    dissipation of friction that is weaker than rounding of the normal force is known to 1e-15 x.
 
     Examples
     --------
@@ -165,8 +166,9 @@ def history(
     Returns
     -------
     History
-        time in t_c, normal, friction_force, velocity, spring, events. With viscous loss t_c is half
-        of the contact, and both forces jump at contact, as the dashpots act at once.
+        time in t_c, normal, friction_force, velocity, spring, events; with omega/Omega up to 1e3 to
+        1e-13 of the largest force and of max(1, x, beta), beyond that to 1e-12. With viscous loss
+        t_c is half of the contact, and both forces jump at contact, as the dashpots act at once.
 
     Examples
     --------

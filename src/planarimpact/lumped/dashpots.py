@@ -52,14 +52,17 @@ def solve(impacts: Impacts) -> Outcome:
     sticks = np.flatnonzero(x < sliding.limit_alike(beta, zeta2, e))
     if sticks.size:
         tau, largest_force = damping(e[sticks])
-        contacts = Viscous(x[sticks], beta[sticks], zeta2[sticks], tau)
+        # Tangential velocities and deflections scale with the mass ratio.
+        x_own, unit = x[sticks], beta[sticks]
+        contacts = Viscous(x_own / unit, np.ones_like(tau), zeta2[sticks] / unit, tau)
         refuse_endless(follow(contacts, contacts.z))
-        outcome.velocity[sticks] = contacts.z[-1]
+        outcome.velocity[sticks] = unit * contacts.z[-1]
         outcome.peak_friction[sticks] = contacts.peak_friction / largest_force
-        outcome.dissipation[sticks] = contacts.work
-        contacts.order.ends_in_slip[:] = True  # also where the last slip is as short as rounding
-        outcome.regime[sticks] = contacts.order.regimes()
-        outcome.regime[x == 0] = Regime.STICK
+        outcome.dissipation[sticks] = unit * contacts.work
+        # What is known of the order holds however short a first or last phase is.
+        count = np.maximum(contacts.order.sticks, 1)
+        regime = Regime.of_phases(count, x_own > zeta2[sticks], True)
+        outcome.regime[sticks] = np.where(x_own == 0, Regime.STICK, regime)
     # Rounding must not create energy.
     np.minimum(np.maximum(outcome.velocity, -x), x, out=outcome.velocity)
     np.maximum(outcome.dissipation, 0.0, out=outcome.dissipation)

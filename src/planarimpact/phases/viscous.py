@@ -35,8 +35,8 @@ CONSTANT = 4  # the last entry of a row
 SEPARATION, FORWARD, BACKWARD = range(3)  # events; in slip FORWARD ends it, BACKWARD ends r
 STICK, LAYER_SLIP, SLIP = range(3)
 LAYER = 40.0
-# Squares of delta this small have the slope -1/3, to rounding.
-LEAST_SQUARE = 1e-12
+# Squares of delta this small have the slope -1/3, to rounding; and no divisor is 0.
+LEAST_SQUARE, LEAST = 1e-12, 1e-30
 
 
 def damping(restitution: Array) -> tuple[Array, Array]:
@@ -52,7 +52,7 @@ def damping(restitution: Array) -> tuple[Array, Array]:
 
     def surplus(which: Any, square: Array) -> tuple[Array, Array]:
         """delta cot(delta) above its goal, with the slope to delta^2."""
-        angle, real = np.sqrt(np.maximum(np.abs(square), LEAST_SQUARE)), square > 0
+        angle, real = np.sqrt(np.maximum(np.abs(square), LEAST)), square > 0
         value = angle / np.where(real, np.tan(np.where(real, angle, 0.1)), np.tanh(angle))
         near = np.abs(square) < LEAST_SQUARE
         slope = (value - value * value - square) / (2 * np.where(near, 1.0, square))
@@ -61,7 +61,7 @@ def damping(restitution: Array) -> tuple[Array, Array]:
     # For goal > 1 |delta| coth |delta| exceeds |delta|.
     low, high = np.where(goal > 1, -goal * goal, 0.0), np.where(goal > 1, 0.0, HALF_PI**2)
     square = roots.crossing(surplus, low, high, start=(1 - goal) * (goal + 2))
-    angle, real = np.sqrt(np.maximum(np.abs(square), LEAST_SQUARE)), square > 0
+    angle, real = np.sqrt(np.maximum(np.abs(square), LEAST)), square > 0
     sine = np.where(real, np.sin(angle), np.sinh(np.where(real, 0.1, angle)))
     tau = 2 * goal * sine / angle  # 2 cos(delta), with all digits near e = 1 too
     inner = np.exp(np.minimum(np.pi - 3 * angle, 0.0) * goal / angle)  # where N' = 0
@@ -152,10 +152,15 @@ class Viscous:
         # its digits, where the difference of s and what it comes to has few.
         side = np.where(slides, np.where(forward, 1.0, -1.0), g)
         decline = side * zeta2 * z[V] - z[W]  # r/tau
-        is_zero = np.abs(decline) <= TIE * (zeta2 * np.abs(z[V]) + np.abs(z[W]))
+        rounding = 3 * TIE * (zeta2 * np.abs(z[V]) + np.abs(z[W]))
+        is_zero = (slides | stops) & (np.abs(decline) <= rounding)
+        z[W] = np.where(is_zero, side * zeta2 * z[V], z[W])
         left = np.where(is_zero, 0.0, tau * decline)
         z[S] = np.where(slides, left, np.where(stops, side * zeta2 * z[U] + left, z[S]))
         z[S] = np.where(settles, 0.0, z[S])
+        # Slip that ended at once was one of rounding: T is put below N by more than that.
+        size = np.abs(z[U]) + tau * np.abs(z[V]) + (np.abs(z[S]) + tau * np.abs(z[W])) / zeta2
+        z[S] -= (stops & (passed.time == 0)) * side * zeta2 * (8 * TIE * size)
         self.g[who] = np.where(stops, 0.0, side)
         self.kind[who] = np.select(
             [slides & (z[S] != 0), stops, slides | settles], [LAYER_SLIP, STICK, SLIP], kind
