@@ -59,11 +59,11 @@ FIG6 = "src/stronge1994/figures/fig6"
 @pytest.mark.parametrize(
     ("paths", "edited", "counts"),
     [
-        ([f"{FIG6}/curves.py"], "planarimpact/lumped/normal.py", True),
+        ([f"{FIG6}/curves.py"], "planarimpact/lumped/by_loss.py", True),
         ([f"{FIG6}/curves.py"], "planarimpact/export/__init__.py", False),
         (
             ["workflow/scripts/draw.py", f"{FIG6}/drawing.py"],
-            "planarimpact/lumped/normal.py",
+            "planarimpact/lumped/by_loss.py",
             False,
         ),
         (["workflow/scripts/solve_scene.py"], "planarimpact/collision/presets.toml", True),
