@@ -93,7 +93,12 @@ def test_history_is_that_of_the_package(scripts):
         # Just below x = beta it sticks for an instant: where |T| touches N again is open by
         # rounding, by its square root, 1.5e-8.
         bound = 1e-7 if row[0] == math.nextafter(row[1], 0) else ACCURACY
-        assert np.shape(ours) == theirs.shape and np.abs(ours - theirs).max() <= bound, row
+        # A phase that takes no time, where two events meet, has vertices of its own in the page.
+        ours, theirs = (
+            np.delete(c, 1 + np.flatnonzero(np.diff(np.array(c)[:, 0]) <= 1e-7), 0)
+            for c in (ours, theirs)
+        )
+        assert ours.shape == theirs.shape and np.abs(ours - theirs).max() <= bound, row
 
 
 def test_the_contact_without_a_spring_is_the_rigid_limit(scripts):

@@ -39,6 +39,8 @@ def of_springs(mirror: float, impact: Impacts, samples: int) -> History:
         before = phase
     if e == 0:
         events.append((EventKind.MAXIMUM_COMPRESSION, columns[-1][:, -1]))
+    else:  # both forces vanish at separation, and the spring has no deflection
+        columns[-1][[1, 2, 4], -1] = 0.0
     return History.joined(columns, events)
 
 
@@ -66,6 +68,7 @@ def of_dashpots(mirror: float, impact: Impacts, samples: int) -> History:
     middle = min(columns[::-1], key=lambda block: np.abs(block[0] - 1).min())
     place = np.abs(middle[0] - 1).argmin()
     middle[0, place] = 1.0
+    columns[-1][1:3, -1] = 0.0  # both forces, at separation
     events.append((EventKind.MAXIMUM_COMPRESSION, middle[:, place]))
     return History.joined(columns, sorted(events, key=lambda event: event[1][0]))
 
