@@ -24,6 +24,8 @@ FLOOR = 1e-300
 # Friction of contacts that are followed, in mu F2max: forces on the way have the rounding error of
 # the largest normal force, so weaker friction has not enough digits for a balance of energy.
 LEAST_FRICTION = 0.01
+# Instants of a contact besides its events.
+SAMPLES = 20
 # Excess of friction, and share of energy, of a contact that cannot be followed.
 UNKNOWN = 1.0
 # Largest number of digits that is counted.
@@ -41,7 +43,7 @@ def curves(points: Mapping[str, Sequence[float]], most_frequency: float) -> Tabl
     `digits_lost` says how many fewer the worst output has. An impact that raises, warns or gives
     NaN has no digits and loses 16. These are in the variant `impacts`. The contacts of up to
     `most_frequency` are followed, but for those with friction below LEAST_FRICTION: in `contacts`,
-    `friction_excess` is how far friction exceeds the Coulomb limit at the worst event;
+    `friction_excess` is how far friction exceeds the Coulomb limit at the worst instant;
     `energy_residual` is how far the work of friction along the contact differs from the balance of
     energy, over the most work that friction could do plus the condition.
 
@@ -118,11 +120,11 @@ def _digits(solved: Array, exact: Array, condition: Array) -> tuple[Array, Array
 
 
 def _excess(x: float, beta: float, zeta2: float, e: float) -> float:
-    """Excess of friction over the Coulomb limit at the worst event; UNKNOWN without a history."""
-    events = _attempt(lambda: lumped.history(x, beta, zeta2, e, samples=2).events)
-    if events is None:
+    """Excess of friction over the Coulomb limit at the worst instant; UNKNOWN without a history."""
+    history = _attempt(lambda: lumped.history(x, beta, zeta2, e, samples=SAMPLES))
+    if history is None:
         return UNKNOWN
-    excess = np.max([abs(event.friction_force) - event.normal for event in events], initial=0.0)
+    excess = np.max(np.abs(history.friction_force) - history.normal, initial=0.0)
     return float(np.nan_to_num(excess, nan=UNKNOWN))
 
 
