@@ -14,21 +14,21 @@ SRC = Path(__file__).parents[1] / "src"
 # Codes that are compared with the solver, and so share nothing with it.
 APART = "tests.reference_solutions"
 
-# The solver. Models of contact do not know each other, but noncollinear asks lumped which losses
-# there are; nothing here knows the reproduction.
+# The solver. Models of contact do not know each other; nothing here knows the reproduction.
 SOLVER = {
     "common": "",
     "normal_impact": "common",
     "rigid": "common",
-    "lumped": "common",
+    "phases": "common",
+    "lumped": "common phases",
     "continuum": "common normal_impact",
     "bodies": "common normal_impact",
-    "noncollinear": "common bodies lumped",
+    "noncollinear": "common bodies phases",
     "spheres": "common normal_impact continuum",
     "models": "common normal_impact rigid lumped continuum spheres",
     "export": "planarimpact common normal_impact collision spheres",
     "fit": "common normal_impact bodies continuum spheres models",
-    "collision": "common normal_impact bodies continuum models spheres",
+    "collision": "common normal_impact bodies continuum spheres",
     "scene": "common bodies collision pandas",
     "__init__": (
         "planarimpact common normal_impact rigid lumped continuum bodies noncollinear spheres"
@@ -73,6 +73,10 @@ CONTRACTS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # Of a package of the solver others import its `__init__` or one of these. In `common` and in the
 # reproduction every module is public.
 PUBLIC_MODULES = {
+    "phases.closed",  # contacts that the loop follows, and their history
+    "phases.off_centre",
+    "phases.runs",
+    "phases.viscous",
     "continuum.inelastic",  # single steps, and motions of one's own
     "normal_impact.hertz",
     "normal_impact.kelvin_voigt",

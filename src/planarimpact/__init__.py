@@ -25,9 +25,9 @@ Symbols and their names. Every model takes the first four. Index 1 is tangential
 | zeta^2 | normal over tangential stiffness | `stiffness_ratio` |
 | e | energetic coefficient of restitution; `loss` is what takes the energy | `restitution` |
 | w | v1/(mu v2(0)), velocity of the contact point, in a rebound at its end | `velocity` |
-| F1, F2 | friction, normal force | `friction`, `normal` in a history |
+| F1, F2 | friction, normal force | `friction_force`, `normal` in a history |
 | t_c | time of compression, the unit of time in a history | `time` |
-| mu, nu | friction and Poisson's ratio of bodies | `friction`, `poisson_ratio` |
+| mu, nu | coefficient of friction and Poisson's ratio of bodies | `friction`, `poisson_ratio` |
 | tau | relaxation time of viscous bodies (Kelvin-Voigt) [s] | `relaxation_time` |
 | p_y | yield pressure of plastic bodies [Pa] | `yield_pressure` |
 
@@ -35,33 +35,32 @@ An example runs after `import numpy as np` and `from planarimpact.lumped import 
 stands for the module on whose page it is.
 """
 
-__version__ = "0.3.0"  # before the imports, as `export` writes it into its files
+import importlib
+from typing import TYPE_CHECKING
 
-from planarimpact import (
-    bodies,
-    collision,
-    common,
-    continuum,
-    export,
-    fit,
-    lumped,
-    models,
-    noncollinear,
-    normal_impact,
-    rigid,
-    scene,
-    spheres,
-)
-from planarimpact.collision import Collision, Pair, collide
+from planarimpact import common
 from planarimpact.common.checks import ConvergenceError, InputError
-from planarimpact.common.results import (
-    Event,
-    EventKind,
-    History,
-    Rebound,
-    Regime,
-)
-from planarimpact.continuum import ContinuumHistory
+from planarimpact.common.results import Event, EventKind, History, Rebound, Regime
+
+if TYPE_CHECKING:  # the rest loads when it is used
+    from planarimpact import (
+        bodies,
+        collision,
+        continuum,
+        export,
+        fit,
+        lumped,
+        models,
+        noncollinear,
+        normal_impact,
+        rigid,
+        scene,
+        spheres,
+    )
+    from planarimpact.collision import Collision, Pair, collide
+    from planarimpact.continuum import ContinuumHistory
+
+__version__ = "0.3.0"
 
 # Modules first, in the order of the text above.
 __all__ = [
@@ -90,3 +89,20 @@ __all__ = [
     "Rebound",
     "Regime",
 ]
+# Where the names are that do not load with this file, and that are no modules.
+_HOMES = dict.fromkeys(("Collision", "Pair", "collide"), "collision")
+_HOMES |= {"ContinuumHistory": "continuum"}
+
+if not TYPE_CHECKING:  # else every name would pass as one of this package
+
+    def __getattr__(name: str) -> object:
+        """Load a name of `__all__` at its first use."""
+        if name not in __all__:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        found = importlib.import_module(f"{__name__}.{_HOMES.get(name, name)}")
+        globals()[name] = getattr(found, name) if name in _HOMES else found
+        return globals()[name]
+
+
+def __dir__() -> list[str]:
+    return [*{*globals(), *__all__}]

@@ -21,7 +21,7 @@ from planarimpact import (
     lumped,
     models,
 )
-from planarimpact.common import checks
+from planarimpact.common import checks, losses
 from planarimpact.common.arrays import ArrayLike
 from planarimpact.common.results import History, Rebound, Regime
 from planarimpact.continuum import ContinuumHistory
@@ -44,19 +44,21 @@ UNITS: dict[type, dict[str, str]] = {
     History: {
         "time": "t_c",
         "normal": "m2 Omega v2(0)",
-        "friction": "mu m2 Omega v2(0)",
+        "friction_force": "mu m2 Omega v2(0)",
         "velocity": "mu v2(0)",
         "spring": "mu v2(0)/Omega",
     },
     ContinuumHistory: {
         "time": "t_c",
         "normal": "F2max",
-        "friction": "mu F2max",
+        "friction_force": "mu F2max",
         "velocity": "mu v2(0)",
         "contact_radius": "a_max",
         "stick_radius": "a_max",
     },
 }
+# Columns whose names are not those of their fields, as programs read them.
+COLUMNS = {"friction_force": "friction"}
 # Numbers that the command line accepts; Python's float() accepts others too, such as 1_000.
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
@@ -153,16 +155,14 @@ def _rebound(options: argparse.Namespace) -> None:
 def _history(options: argparse.Namespace) -> None:
     x, groups, (family, _, loss) = options.incidence, _groups(options), options.model.partition(".")
     checks.impact(x, *groups.values())
-    if not loss:
-        names = models.losses(family).values()
-        checks.require_loss(options.restitution, names, "a model with a loss")
+    models.rebound(options.model, 0.0, **groups)  # refuses what this model does not have
     result: History | ContinuumHistory
     if family == "continuum":
         _refuse_ignored(options, ["samples"], "the continuum has a tolerance instead")
         result = continuum.history(x, **groups, tolerance=options.tolerance, loss=loss or None)
     else:
         _refuse_ignored(options, ["tolerance"], "the lumped model is solved to rounding")
-        loss = loss or "hysteretic"  # at e = 1 all are the same
+        loss = loss or lumped.LOSSES[0]  # at e = 1 all are the same
         result = lumped.history(x, **groups, samples=options.samples, loss=loss)
     _print(_with_units(result) | _model_and_loss(options, len(result.time)))
 
@@ -176,7 +176,7 @@ def _with_units(result: Rebound | History | ContinuumHistory) -> dict[str, Array
     """Columns by name and unit, from the fields of a result that have a value."""
     fields = result._asdict()
     return {
-        f"{name} [{unit}]" if unit else name: fields[name]
+        f"{COLUMNS.get(name, name)} [{unit}]" if unit else name: fields[name]
         for name, unit in UNITS[type(result)].items()
         if fields[name] is not None
     }
@@ -261,7 +261,7 @@ def _errors(groups: dict[str, float], loss: str | None) -> dict[str, ArrayLike]:
     """Errors of every model against the continuum, and where a measurement can show them."""
     checks.impact(0.0, *groups.values())
     reference = models.reference(groups["restitution"], loss)
-    loss = loss or continuum.VISCOUS  # at e = 1 both losses have the same continuum
+    loss = loss or losses.VISCOUS.name  # at e = 1 both losses have the same continuum
     limit = continuum.slip_throughout_limit(**groups, loss=loss)
     x = np.linspace(0.0, float(limit), INCIDENCES)
     # A tenth of the default tolerance, so that the continuum itself has an error, too.

@@ -14,6 +14,7 @@ from typing import IO, Any, NamedTuple
 import numpy as np
 
 from planarimpact import continuum
+from planarimpact.common import losses
 from planarimpact.common.arrays import Array
 from planarimpact.continuum import inelastic
 from planarimpact.spheres import table
@@ -188,7 +189,12 @@ def solved(loss: str, y: Array, b: Array, e: Array) -> Array:
     for steps, rows in parts:
         solutions = (
             inelastic.path(
-                y[rows], b[rows], np.ones(rows.size), e[rows], inelastic.MOTIONS[loss], count
+                y[rows],
+                b[rows],
+                np.ones(rows.size),
+                e[rows],
+                inelastic.MOTIONS[losses.SPHERES[loss]],
+                count,
             )
             for count in (steps, 2 * steps)
         )

@@ -80,7 +80,7 @@ def slides_at_the_end(b: Array, e: Array) -> Array:
             part = slice(start, start + TOGETHER)
             beta, zeta2, restitution = (a[which][part] for a in (b, one, e))
             path = inelastic.path(y[part], beta, zeta2, restitution, PlasticMotion, STEPS)
-            below_limit[part] = inelastic.GROSS * path.normal[end] - path.friction[end]
+            below_limit[part] = inelastic.GROSS * path.normal[end] - path.friction_force[end]
         return (np.where(below_limit > 0, 1.0, -1.0),)
 
     return roots.crossing(sticks, np.zeros_like(b), slides_from(b, e), resolution=COARSE)

@@ -70,18 +70,18 @@ def test_a_history_keeps_the_laws_and_ends_where_the_rebound_does(loss, x):
     after = solved(x, e=e, loss=loss, tolerance=1e-3)
     assert contact.velocity[0] == x and contact.time[0] == 0
     assert contact.velocity[-1] == pytest.approx(after.velocity, abs=2e-3)
-    assert np.abs(contact.friction).max() == pytest.approx(after.peak_friction, abs=5e-3)
-    assert (np.abs(contact.friction) <= contact.normal + 1e-12).all()
+    assert np.abs(contact.friction_force).max() == pytest.approx(after.peak_friction, abs=5e-3)
+    assert (np.abs(contact.friction_force) <= contact.normal + 1e-12).all()
     assert (np.diff(contact.time) > 0).all() and len(contact.time) >= 129
     assert (contact.stick_radius <= contact.contact_radius).all()
-    assert contact.normal[-1] == contact.friction[-1] == 0
+    assert contact.normal[-1] == contact.friction_force[-1] == 0
     gross = contact.stick_radius == 0
     full = contact.normal[gross] * (x != 0)
     atol = 1e-3 if loss else 0  # one of the springs may still stick
-    np.testing.assert_allclose(np.abs(contact.friction[gross]), full, atol=atol)
+    np.testing.assert_allclose(np.abs(contact.friction_force[gross]), full, atol=atol)
     # Both velocities change by the impulses of their forces.
     impulse, normal_impulse = (
-        np.trapezoid(force, contact.time) for force in (contact.friction, contact.normal)
+        np.trapezoid(force, contact.time) for force in (contact.friction_force, contact.normal)
     )
     change = BETA * (1 + e) * impulse / normal_impulse
     assert x - contact.velocity[-1] == pytest.approx(change, abs=1e-3 * BETA)
@@ -161,7 +161,7 @@ def test_the_contact_starts_in_stick_up_to_zeta2(loss):
     for x, sticks in ((ZETA2 * 0.98, True), (ZETA2 * 1.02, False)):
         contact = continuum.history(x, restitution=0.6, loss=loss, tolerance=1e-3)
         early = slice(1, 4)
-        share = contact.friction[early] / contact.normal[early]
+        share = contact.friction_force[early] / contact.normal[early]
         assert (share < 0.999).all() if sticks else (share > 1 - 1e-12).all()
 
 

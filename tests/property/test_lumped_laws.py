@@ -34,13 +34,8 @@ def impacts(seed, loss):
 
 
 @pytest.fixture(scope="module")
-def everywhere(impacts, loss):
-    return np.concatenate([impacts, lumped_impacts.extreme(loss)], axis=1)
-
-
-@pytest.fixture(scope="module")
-def found(everywhere, loss):
-    return lumped.rebound(*everywhere, loss=loss)
+def found(impacts, loss):
+    return lumped.rebound(*impacts, loss=loss)
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +52,7 @@ def jumps(impacts, loss):
             near[place] *= 1 + side * STEP
             near = lumped_impacts.within(near, loss)
             most = np.maximum(most, np.abs(outputs(near) - here))
-    return most / np.maximum(lumped_impacts.scales(impacts, loss), 1e-300)
+    return most / np.maximum(lumped_impacts.scales(impacts, loss), 1e-300)  # of x = 0
 
 
 def rounding(groups, loss):
@@ -66,32 +61,30 @@ def rounding(groups, loss):
     return share * np.maximum(groups[0], groups[1])
 
 
-def test_the_impacts_lie_on_both_sides_of_sticking_again(everywhere):
-    _, beta, zeta2, e = everywhere
+def test_the_impacts_lie_on_both_sides_of_sticking_again(impacts):
+    _, beta, zeta2, e = impacts
     fast = e * e > zeta2 / beta
-    assert min(fast.sum(), (~fast).sum()) > 1500
+    assert 0.1 < fast.mean() < 0.9
 
 
-def test_friction_creates_no_energy_and_keeps_its_limit(everywhere, found):
-    assert (np.abs(found.velocity) <= everywhere[0]).all()
+def test_friction_creates_no_energy_and_keeps_its_limit(impacts, found):
+    assert (np.abs(found.velocity) <= impacts[0]).all()
     assert (found.dissipation >= 0).all() and np.isfinite(found.dissipation).all()
     assert ((found.peak_friction >= 0) & (found.peak_friction <= 1)).all()
 
 
-def test_friction_takes_what_the_body_loses(everywhere, found, loss):
+def test_friction_takes_what_the_body_loses(impacts, found, loss):
     """All of it; with viscosity the tangential dashpot and the spring have a share."""
-    finite = everywhere[0] < 1e150  # the square
-    x, beta, *_ = groups = everywhere[:, finite]
-    velocity, dissipation = found.velocity[finite], found.dissipation[finite]
-    taken_besides = (x / beta - velocity / beta) * (x + velocity) / 2 - dissipation
-    bound = 2 * rounding(groups, loss) * (x / beta)
+    x, beta, *_ = impacts
+    taken_besides = (x - found.velocity) / beta * (x + found.velocity) / 2 - found.dissipation
+    bound = 2 * rounding(impacts, loss) * (x / beta)
     assert (taken_besides >= -bound).all()
     if loss == "hysteretic":
         assert (taken_besides <= bound).all()
 
 
-def test_slip_throughout_is_a_line_from_its_limit_on(everywhere, found, loss):
-    x, beta, zeta2, e = everywhere
+def test_slip_throughout_is_a_line_from_its_limit_on(impacts, found, loss):
+    x, beta, zeta2, e = impacts
     slides = x >= lumped.slip_throughout_limit(beta, zeta2, e, loss=loss)
     np.testing.assert_array_equal(found.regime == Regime.SLIP_THROUGHOUT, slides)
     line = np.maximum(x - (1 + e) * beta, -x)  # rounding creates no energy
@@ -115,7 +108,6 @@ def test_only_ratios_of_the_groups_matter(impacts, loss):
     other = lumped.rebound(4 * x, 4 * beta, 4 * zeta2, e, loss=loss)
     np.testing.assert_array_equal(other.velocity, 4 * one.velocity)
     np.testing.assert_array_equal(other.peak_friction, one.peak_friction)
-    # Numbers below 1e-307 lose digits.
     np.testing.assert_allclose(other.dissipation, 4 * one.dissipation, rtol=0, atol=1e-322)
 
 
@@ -169,27 +161,21 @@ def test_loss_and_compliance_vanish_without_a_jump(impacts, loss):
     assert (np.abs(answer - stiff) <= np.sqrt(beta * zeta2) + rounding(impacts, loss)).all()
 
 
-def test_one_and_many_and_history_agree(impacts, everywhere, found, loss):
+def test_one_and_many_and_history_agree(impacts, found, loss):
     """Along a contact friction keeps its limit, and the tangential energy never grows."""
-    x, beta, zeta2, e = everywhere
-    few = e * np.sqrt(beta) <= 300 * np.sqrt(zeta2)
-    if loss != "viscous":  # what sticks in compression needs digits of friction in a history
-        unloading = e if loss == "unloading-stiffness" else 1.0
-        few &= (x == 0) | (x >= beta) | (np.sqrt(beta) <= 1e9 * unloading * np.sqrt(zeta2))
-    few = np.flatnonzero(few)
-    extremes = few[few >= impacts.shape[1]]
-    for lane in (*few[:: few.size // 120], *extremes[:: extremes.size // 60]):
-        x, beta, zeta2, e = point = tuple(map(float, everywhere[:, lane]))
+    x, beta, zeta2, e = impacts
+    # With more steps a history loses digits, as it says, and takes seconds.
+    few = np.flatnonzero((e * np.sqrt(beta) <= 300 * np.sqrt(zeta2)) & (beta <= 1e6 * zeta2))
+    for lane in few[:: few.size // 120]:
+        x, beta, zeta2, e = point = tuple(map(float, impacts[:, lane]))
         alone = lumped.rebound(*point, loss=loss)
         assert tuple(alone[:4]) == tuple(field[lane] for field in found[:4]), point
         contact = lumped.history(*point, samples=40, loss=loss)
         assert abs(contact.velocity[-1] - alone.velocity) <= rounding(point, loss), point
         slack = rounding((1.0, contact.normal.max()), loss)
-        assert (np.abs(contact.friction) <= contact.normal + slack).all(), point
+        assert (np.abs(contact.friction_force) <= contact.normal + slack).all(), point
         phases = sum(event.kind in ("stick", "slip") for event in contact.events)
         assert (phases > 3) == (alone.regime == Regime.MULTIPLE), point
-        if max(x, beta) > 1e150:  # the squares below are infinite
-            continue
         energy = contact.velocity**2 / (2 * beta) + contact.spring**2 / (2 * zeta2)
         slack = rounding(point, loss) * max(x, beta) / beta
         assert (np.diff(energy) <= slack).all(), point

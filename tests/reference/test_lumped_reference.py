@@ -5,7 +5,6 @@ their rows is computed again. They come with the package's own archive.
 """
 
 import csv
-import math
 from itertools import product
 from pathlib import Path
 
@@ -13,10 +12,10 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, lumped
+from tests.property import lumped_impacts
 from tests.reference_solutions import (
     extreme_tables,
     high_precision,
-    inelastic_contact,
     table_files,
     viscous_precision,
     viscous_tables,
@@ -26,7 +25,7 @@ DATA = Path(__file__).parents[2] / "data"
 TABLES = {"hysteretic": "lumped_extremes", "viscous": "lumped_viscous"}
 HEADERS = {"hysteretic": extreme_tables.HEADER, "viscous": viscous_tables.HEADER}
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
-ULP, LEAST = 2.0**-52, 5e-324
+ULP = 2.0**-52
 LONG = [pytest.param(part, marks=pytest.mark.long) for part in range(1, 20)]
 
 
@@ -52,7 +51,7 @@ def test_every_impact_at_every_size_has_all_its_digits(tables):
     found = answers(table, "hysteretic")
     for name, exact, condition in zip(OUTPUTS, table[4:7], table[7:10], strict=True):
         error = np.abs(getattr(found, name) - exact)
-        assert (error <= 100 * np.maximum(ULP * (np.abs(exact) + condition), LEAST)).all(), name
+        assert (error <= 100 * ULP * (np.abs(exact) + condition)).all(), name
 
 
 def test_every_viscous_impact_has_12_digits_and_its_energy(tables):
@@ -84,13 +83,9 @@ def test_rows_are_what_the_references_compute(part):
 
 @pytest.mark.parametrize(("loss", "places"), [("hysteretic", 5), ("viscous", 4)])
 def test_every_threshold_and_its_neighbours_are_in_the_table(tables, loss, places):
-    reference = extreme_tables if loss == "hysteretic" else viscous_tables
-    beside = set()
-    for x, *ratios in tables[loss][:4, ::2].T.tolist():
-        for which, place in enumerate(reference.thresholds(*ratios)):
-            if x in (math.nextafter(place, 0), place, math.nextafter(place, math.inf)):
-                beside.add((which, float(np.sign(x - place))))
-    assert beside == set(product(range(places), (-1.0, 0.0, 1.0)))
+    x, *groups = tables[loss][:4]
+    there = lumped_impacts.thresholds(*groups, loss)[:, :places] == x
+    assert there.any(axis=-1).all()
 
 
 def test_no_condition_is_inflated(tables):
@@ -99,7 +94,7 @@ def test_no_condition_is_inflated(tables):
     work = np.minimum(x, 2 * (1 + e) * beta) * (x / (2 * beta))  # the most that friction can do
     assert (velocity <= 5 * np.maximum(x, beta)).all()
     assert (peak <= 2).all()
-    assert (dissipation <= 7 * (1 + np.sqrt(beta / zeta2)) * work + 1e-300).all()
+    assert (dissipation <= 7 * (1 + np.sqrt(beta / zeta2)) * work).all()
     assert (np.minimum(np.minimum(velocity, peak), dissipation) >= 0).all()
 
 
@@ -107,10 +102,10 @@ def test_no_condition_is_inflated(tables):
     "point",
     [
         (1.0, 3.5, 1.21, 1e-3),  # the ends of the range
-        (2.0, 1e6, 1e3, 0.5),
+        (2.0, 1e6, 1e4, 0.5),
         (0.5, 1.0, 1e6, 0.9),
         (1e-30, 3.5, 1.21, 0.7),
-        (2.0, 3.5, 3.5e-4, 0.9),
+        (2.0, 3.5, 0.035, 0.9),
         # Slip that stops for a moment only, after N + tau N' has turned negative.
         (13.123907112722152, 7.81391911697076, 0.14401259515680903, 0.8513419297972314),
         # A last slip of no length: little loss, a soft tangential element.
@@ -173,18 +168,3 @@ def test_a_history_has_the_events_of_the_reference(loss, which):
         assert abs(float(one.time / unit) - other.time) < 1e-11
         for field in set(one._fields) - {"kind", "time"}:
             assert abs(float(getattr(one, field)) - getattr(other, field)) < 1e-11
-
-
-@pytest.mark.parametrize(
-    ("beta", "zeta2", "e"), [(3.5, 1.21, 0.9), (1.2, 1.9, 0.5), (8.0, 0.3, 0.3), (2.5, 5.0, 0.06)]
-)
-def test_viscous_steps_that_know_no_phases_tend_to_the_answer(beta, zeta2, e):
-    """Their error falls as the square of the step; without viscosity see `timestep.linear`."""
-    limit = lumped.slip_throughout_limit(beta, zeta2, e, loss="viscous")
-    x = np.linspace(0, 1.1 * limit, 23)
-    exact = lumped.rebound(x, beta, zeta2, e, loss="viscous").velocity
-    coarse, fine = (
-        np.abs(inelastic_contact.rebound("lumped.viscous", x, beta, zeta2, e, steps) - exact).max()
-        for steps in (500, 1000)
-    )
-    assert fine < 2e-5 and coarse / fine > 3

@@ -95,7 +95,7 @@ def _contact(x):
 
 
 def _numbers(event):
-    return [event.time, event.normal, event.friction, event.velocity]
+    return [event.time, event.normal, event.friction_force, event.velocity]
 
 
 def _between(events):
@@ -127,11 +127,11 @@ def state_at(answer, e, time):
         turned = omega * mp.pi / 2 * (time - last.time)
         cosine, sine = mp.cos(turned), mp.sin(turned)
         impedance = omega * mp.mpf(ZETA2)
-        friction = last.friction * cosine + last.velocity / impedance * sine
-        velocity = last.velocity * cosine - impedance * last.friction * sine
+        friction = last.friction_force * cosine + last.velocity / impedance * sine
+        velocity = last.velocity * cosine - impedance * last.friction_force * sine
     else:
         # Slip began where |T| = N; at first contact both are zero and it goes forward.
-        forward = -1 if last.friction < 0 else 1
+        forward = -1 if last.friction_force < 0 else 1
         friction = forward * normal[0]
         velocity = last.velocity - forward * BETA * (normal[1] - first[1])
     return high_precision.Event("", time, normal[0], friction, velocity)
@@ -320,7 +320,7 @@ def lowest_friction(answer):
     contact: its extremes stand at the events. In stick it is harmonic, and is least also where the
     velocity turns round from negative to positive: friction grows with the velocity.
     """
-    found = min(event.friction for event in answer.events)
+    found = min(event.friction_force for event in answer.events)
     omega = mp.sqrt(mp.mpf(BETA) / mp.mpf(ZETA2))
     impedance = omega * mp.mpf(ZETA2)
     sticks = False
@@ -329,10 +329,10 @@ def lowest_friction(answer):
             sticks = event.kind == "stick"
         if sticks:
             # T = A cos(a - lead): least at a = lead + pi, if the phase lasts so long.
-            lead = mp.atan2(event.velocity / impedance, event.friction)
+            lead = mp.atan2(event.velocity / impedance, event.friction_force)
             turned = omega * mp.pi / 2 * (after.time - event.time)
             if (lead + mp.pi) % (2 * mp.pi) < turned:
-                found = min(found, -mp.hypot(event.friction, event.velocity / impedance))
+                found = min(found, -mp.hypot(event.friction_force, event.velocity / impedance))
     return found
 
 

@@ -28,18 +28,6 @@ HEADER = [
 ]
 
 
-def thresholds(beta, zeta2, e):
-    """Incidences at which the order of phases changes, or a source says so, as float64."""
-    with mp.workdps(700):  # e may be denormal
-        beta, zeta2, e = map(mp.mpf, (beta, zeta2, e))
-        late = max(mp.zero, e * beta - zeta2 / e) if e else mp.zero
-        found = [zeta2, beta, max(zeta2, beta + late), (1 + e) * beta]
-        if zeta2 > beta:  # stick may break before maximum compression from here on
-            omega = mp.sqrt(beta / zeta2)
-            found.append(zeta2 * omega / mp.sin(omega * mp.pi / 2))
-        return [float(x) for x in found]
-
-
 def row(point):
     """One impact: groups as float64, outputs to 20 digits, their conditions to 3, phases.
 

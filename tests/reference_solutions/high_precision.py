@@ -35,7 +35,7 @@ class Event(NamedTuple):
     kind: str
     time: mp.mpf
     normal: mp.mpf
-    friction: mp.mpf
+    friction_force: mp.mpf
     velocity: mp.mpf
 
 
@@ -103,7 +103,7 @@ class _Impact:
         self._log("separation", last)
         loss = (self.x - self.velocity) * (self.x + self.velocity) / (2 * self.beta)
         events = tuple(
-            v._replace(friction=mirror * v.friction, velocity=mirror * v.velocity)
+            v._replace(friction_force=mirror * v.friction_force, velocity=mirror * v.velocity)
             for v in self.events
         )
         return Answer(mirror * self.velocity, self.peak, loss, self.work, events)

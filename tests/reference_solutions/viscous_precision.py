@@ -33,7 +33,7 @@ class Event(NamedTuple):
     kind: str
     time: mp.mpf
     normal: mp.mpf
-    friction: mp.mpf
+    friction_force: mp.mpf
     velocity: mp.mpf
     spring: mp.mpf
 

@@ -28,11 +28,6 @@ HEADER = [
 PROMISED = 1e-12
 
 
-def thresholds(beta, zeta2, e):
-    """Incidences at which the order of phases changes, or another model says so."""
-    return [zeta2, beta, max(zeta2, beta + e * (beta - zeta2)), (1 + e) * beta]
-
-
 def row(point):
     """One impact: groups as float64, outputs with 20 digits."""
     answer = viscous_precision.rebound(*point)
@@ -43,7 +38,9 @@ def row(point):
 
 def scales(x, beta, _, e):
     """What errors of the outputs count beside; shape (3, ...)."""
-    work = np.minimum(np.divide(x, 2 * beta), 1 + e) * x
+    # The solver follows forces with the rounding of the largest normal force, about 1e-16. So the
+    # work of weaker friction is known to that times the way, x: 1e-15 x, in units of 1e-12.
+    work = (np.minimum(np.divide(x, 2 * beta), 1 + e) + 1e-3) * x
     size = np.maximum(np.maximum(x, beta), 1)
     return np.stack([size, np.ones_like(size), np.maximum(work, 1e-300)])
 

@@ -66,7 +66,8 @@ def test_history_prints_what_the_model_says_with_units(model, header, option, ca
     ((key, value),) = option.items()
     assert main(["history", "--incidence=1", f"--model={name}", *GIVEN, f"--{key}={value}"]) == 0
     exact = model.history(1.0, **GROUPS, **option, loss="viscous")
-    assert_are(capsys.readouterr().out, header, exact._asdict(), "viscous")
+    columns = exact._asdict() | {"friction": exact.friction_force}
+    assert_are(capsys.readouterr().out, header, columns, "viscous")
 
 
 def test_what_takes_the_energy_of_models_without_the_option(capsys):

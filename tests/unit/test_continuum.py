@@ -2,12 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-from scipy.optimize import brentq
 
 from planarimpact import continuum
 from planarimpact.continuum import refinement
-from planarimpact.normal_impact import yielding
 
 
 def test_many_impacts_are_solved_in_parts(monkeypatch):
@@ -54,25 +51,3 @@ def test_impacts_without_an_answer_are_all_named(monkeypatch):
     with pytest.raises(continuum.Unsolved) as refused:
         continuum.rebound([0.5, 0.01, 3.0, 2.0], tolerance=1e-7)
     assert refused.value.impacts.tolist() == [0, 2, 3]
-
-
-@pytest.mark.parametrize("yield_velocity", [0.001, 0.05, 0.4, 0.99])
-def test_restitution_of_elastic_plastic_spheres_is_the_work_of_their_forces(yield_velocity):
-    """Thornton's closed form against the energies of loading and unloading, by quadrature."""
-    d_yield = (15 / 16 * yield_velocity**2) ** 0.4
-
-    def loading(d):
-        if d <= d_yield:
-            return 4 / 3 * d**1.5
-        # pi p_y with p_y = (2/pi) sqrt(d_y), the largest pressure of Hertz at d_y.
-        return 4 / 3 * d_yield**1.5 + 2 * np.sqrt(d_yield) * (d - d_yield)
-
-    def work(d):
-        return quad(loading, 0, d, points=[min(d_yield, d)], epsabs=1e-13, limit=200)[0]
-
-    largest = brentq(lambda d: work(d) - 0.5, 1e-3, 1e3, xtol=1e-13)
-    radius = 4 / 3 * largest**1.5 / loading(largest)  # R_p
-    back = quad(lambda z: 4 / 3 * np.sqrt(radius) * z**1.5, 0, largest / radius, epsabs=1e-13)[0]
-    found = yielding.restitution(np.array([yield_velocity]))
-    assert found == pytest.approx(np.sqrt(2 * back), abs=1e-9)
-    assert yielding.yield_velocity(found) == pytest.approx(yield_velocity, rel=1e-9)

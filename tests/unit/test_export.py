@@ -20,7 +20,7 @@ PROGRAMS = Path(__file__).parent / "export"
 README = Path(__file__).parents[2] / "src/README.md"
 COUNT = 20_000
 ACCURACY = 1e-14  # of the largest value
-LARGEST = 8e307  # incidence
+LARGEST = 1e100  # incidence
 EDGES = 30  # of each kind in each patch
 # Of the table of spheres: values for x, mass ratio, stiffness ratio, restitution and loss.
 BEYOND = [
@@ -305,7 +305,7 @@ def random_impacts():
     pair, *others = test_collide.random_impacts(COUNT, seed=37)
     random, rare = np.random.default_rng(37), np.arange(COUNT) % 20 == 0
     said = {name: getattr(pair, name) for name in PAIR.split()[:-1]}
-    said["friction"] = np.where(rare, 10 ** random.uniform(1, 308, COUNT), pair.friction)
+    said["friction"] = np.where(rare, 10 ** random.uniform(1, 100, COUNT), pair.friction)
     less = rare & ~np.isnan(pair.restitution)
     said["restitution"] = np.where(less, random.uniform(0, 0.3, COUNT), pair.restitution)
     # By a law, e is from 1 to 0.2 at 2 m/s or so.
@@ -316,17 +316,16 @@ def random_impacts():
     pressure = 2 / np.pi * stiff * (share + 0.1) * (m2 * 2**2 / stiff / radius**3) ** 0.2
     said["relaxation_time"] = np.where(np.isnan(pair.relaxation_time), np.nan, time)
     said["yield_pressure"] = np.where(np.isnan(pair.yield_pressure), np.nan, pressure)
-    loss = np.where(pair.plastic, "plastic", "viscous")
     touch = ~velocity.any(axis=1)  # else rounding would say whether they approach
     spin[touch] = other_spin[touch] = 0.0
-    return collision.Pair(**said, loss=loss), *others
+    return collision.Pair(**said, loss=pair.loss), *others
 
 
 def rows_of(pair, normal, body, velocity, spin, other, other_velocity, other_spin):
     """The same with all columns in a row; loss is said where there is one by a constant e."""
     given = {name: np.nan_to_num(getattr(pair, name)) for name in PAIR.split()[:-1]}
     constant = (given["restitution"] < 1) & ~np.isnan(pair.restitution)
-    given |= {"loss": np.where(constant, 1.0 + pair.plastic, 0.0), "normal": normal}
+    given |= {"loss": np.where(constant, 1.0 + (pair.loss == "plastic"), 0.0), "normal": normal}
     for who, one in (("", body), ("other_", other)):
         given |= {who + name: getattr(one, name) for name in BODY.split()}
     given |= {"velocity": velocity, "spin": spin}
@@ -388,8 +387,8 @@ def test_below_the_table_the_motion_along_the_surface_is_that_of_its_least_resti
     after = {name: values[rows] for name, values in after.items()}
     assert np.isnan([after["error_bound"], after["model_form"]]).all()
     said = {name: getattr(pair, name) for name in ("friction", "stiffness_ratio")}
-    loss = np.where(pair.plastic, "plastic", "viscous")
-    tabled = collision.collide(collision.Pair(**said, restitution=0.3, loss=loss), normal, *others)
+    slow = collision.Pair(**said, restitution=0.3, loss=pair.loss)
+    tabled = collision.collide(slow, normal, *others)
     e, unit = after["restitution"], normal / np.linalg.norm(normal, axis=1)[:, None]
     constant = ~np.isnan(pair.restitution)
     np.testing.assert_array_equal(e[constant], pair.restitution[constant])

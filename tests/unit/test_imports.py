@@ -1,10 +1,13 @@
-"""The digest of code: it changes with each module that is reached, and with no other."""
+"""What an import loads; and the digest of code, which changes with each module that is reached."""
 
 import re
 import shutil
+import subprocess
+import sys
 
 import pytest
 
+import planarimpact
 from stronge1994 import imports
 
 SRC = imports.SRC
@@ -56,11 +59,11 @@ FIG6 = "src/stronge1994/figures/fig6"
 @pytest.mark.parametrize(
     ("paths", "edited", "counts"),
     [
-        ([f"{FIG6}/curves.py"], "planarimpact/lumped/normal.py", True),
+        ([f"{FIG6}/curves.py"], "planarimpact/lumped/by_loss.py", True),
         ([f"{FIG6}/curves.py"], "planarimpact/export/__init__.py", False),
         (
             ["workflow/scripts/draw.py", f"{FIG6}/drawing.py"],
-            "planarimpact/lumped/normal.py",
+            "planarimpact/lumped/by_loss.py",
             False,
         ),
         (["workflow/scripts/solve_scene.py"], "planarimpact/collision/presets.toml", True),
@@ -81,7 +84,54 @@ def test_no_import_is_hidden_from_the_digest():
     hidden = r"import_module\(|__import__|runpy|^ *(?:.*;|.*:) *import "
     texts = {path.relative_to(SRC): path.read_text("utf-8") for path in SRC.rglob("*.py")}
     assert {f"{path}" for path, text in texts.items() if re.search(hidden, text, flags=re.M)} == {
+        "planarimpact/__init__.py",  # its names stand below TYPE_CHECKING too
         "stronge1994/solving.py",
         "stronge1994/figures/shared/drawing/__init__.py",
         "stronge1994/ledger/__init__.py",
     }
+
+
+def printed(code):
+    """What a fresh interpreter prints."""
+    command = [sys.executable, "-c", code]
+    return subprocess.run(command, cwd=SRC, check=True, capture_output=True, text=True).stdout
+
+
+@pytest.mark.parametrize(
+    ("code", "loaded"),
+    [
+        ("import planarimpact", "common"),
+        ("from planarimpact import Regime, InputError", "common"),
+        ("import planarimpact as p; dir(p); hasattr(p, 'solver')", "common"),
+        ("from planarimpact import rigid", "common rigid"),
+        ("from planarimpact import ContinuumHistory", "common continuum normal_impact"),
+    ],
+)
+def test_what_is_not_used_is_not_loaded(code, loaded):
+    code += "\nimport sys\nprint(*{'.'.join(name.split('.')[:2]) for name in sys.modules})"
+    names = set(printed(code).split())
+    assert not {name.split(".")[0] for name in names} & {"scipy", "pandas", "pyarrow", "tomllib"}
+    ours = {name for name in names if name.startswith("planarimpact.")}
+    assert ours == {f"planarimpact.{name}" for name in loaded.split()}
+
+
+def test_every_name_of_the_package_can_be_used_first_and_is_listed():
+    code = "import planarimpact as p; print(set(p.__all__) - set(dir(p)), {0}.__name__, {0} is {0})"
+    for name in planarimpact.__all__:
+        own = getattr(planarimpact, name).__name__
+        assert printed(code.format(f"p.{name}")) == f"set() {own} True\n"
+    code = "from planarimpact import *; print({*__import__('planarimpact').__all__} - {*globals()})"
+    assert printed(code) == "set()\n"
+    with pytest.raises(AttributeError, match="module 'planarimpact' has no attribute 'solver'"):
+        _ = planarimpact.solver
+
+
+def test_each_module_of_the_package_can_be_imported_first():
+    code = "import importlib, sys, numpy\nothers = {*sys.modules}\n"
+    for path in (SRC / "planarimpact").rglob("*.py"):
+        name = ".".join(path.relative_to(SRC).with_suffix("").parts).removesuffix(".__init__")
+        if name != "planarimpact.scene.files":  # it needs pandas and pyarrow
+            code += f"importlib.import_module({name!r})\n"
+            code += "for name in {*sys.modules} - others:\n"
+            code += "    if name.startswith('planarimpact'): del sys.modules[name]\n"
+    assert printed(code) == ""

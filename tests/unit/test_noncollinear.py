@@ -6,10 +6,10 @@ from itertools import product
 import numpy as np
 import pytest
 
-from planarimpact import Regime, noncollinear
+from planarimpact import Regime, noncollinear, phases
 from planarimpact.bodies import Motion
 from planarimpact.common.checks import ConvergenceError
-from planarimpact.noncollinear import InverseMass, rigid, solver
+from planarimpact.noncollinear import InverseMass, rigid
 
 paper_rebound = partial(noncollinear.rebound, loss="hysteretic")
 paper_history = partial(noncollinear.history, loss="hysteretic")
@@ -45,7 +45,7 @@ def test_two_bodies_are_one_of_their_inverse_mass():
     np.testing.assert_allclose(one[:9], other[:9])
 
 
-@pytest.mark.parametrize("e", [1e-6, 1e-12, 1e-20, 1e-300])
+@pytest.mark.parametrize("e", [1e-6, 1e-9, 1e-12])
 def test_a_history_of_little_restitution_ends_at_separation(e):
     contact = paper_history(0.4, 1.0, rod(30.0), 0.8, e)
     result = paper_rebound(0.4, 1.0, rod(30.0), 0.8, e)
@@ -56,9 +56,9 @@ def test_a_history_of_little_restitution_ends_at_separation(e):
 
 def test_impacts_that_rattle_on_are_named_and_the_others_answered(monkeypatch):
     """Friction holds the contact closed (mu C > 1), and the stiff unloading element rattles."""
-    monkeypatch.setattr(solver, "MOST_PHASES", 60)
-    monkeypatch.setattr(solver, "CHUNK", 2)
-    settings = 1.0, InverseMass(1.0, 0.75, 1.0), 6.0, 1e-9, 20.0
+    monkeypatch.setattr(phases, "MOST_STEPS", 60)
+    monkeypatch.setattr(phases, "BLOCK", 2)
+    settings = 1.0, InverseMass(1.0, 0.75, 1.0), 6.0, 1e-3, 20.0
     v1 = np.array([[0.0, 0.5], [0.0, 12.0]])
     with pytest.warns(RuntimeWarning, match="1 of 4 impacts given up.*impact 3.*'friction': 6.0"):
         result = paper_rebound(v1, *settings)
@@ -88,12 +88,12 @@ def test_friction_holds_a_contact_without_restitution_closed():
     ]
     held = contact.time >= contact.events[5].time
     np.testing.assert_allclose(contact.normal[held], 0, atol=1e-15)
-    mean = mass.coupling * contact.friction[held][1:]
+    mean = mass.coupling * contact.friction_force[held][1:]
     np.testing.assert_allclose(contact.normal_force[held][1:], mean, atol=1e-14)
     # Friction is the force of a spring: in stick and in creep alike, by its deflection.
-    np.testing.assert_allclose(contact.spring, 1.3185 * contact.friction, atol=1e-13)
+    np.testing.assert_allclose(contact.spring, 1.3185 * contact.friction_force, atol=1e-13)
     # The change of velocity is the impulse of the forces.
-    force = mass.coupling * contact.normal_force - mass.tangential * contact.friction
+    force = mass.coupling * contact.normal_force - mass.tangential * contact.friction_force
     change = np.trapezoid(force, contact.time)
     assert contact.tangential[-1] - 6.2256 == pytest.approx(change, abs=1e-5)
     result = paper_rebound(6.2256, 1.0, mass, 1.8575, 0.0, 1.3185)
@@ -117,6 +117,15 @@ def test_regimes_at_round_numbers(
     mass = InverseMass(mass_ratio, coupling, 1.0)
     result = paper_rebound(v1, 1.0, mass, friction, restitution, stiffness_ratio)
     assert result.regime.name == regime and not result.jams
+
+
+def test_friction_is_largest_in_the_middle_of_a_swing_too():
+    """In stick it swings to -0.0336 N, and at separation it is 0.0333 N."""
+    impact = -0.13198714064363087, 1.0, InverseMass(0.4985177194559317, 0.4603085237375929, 1.0)
+    rest = 0.5030861863458862, 0.0, 1.9451418777045333
+    forces = paper_history(*impact, *rest, samples=20_001).friction_force
+    assert forces[-1] == pytest.approx(0.0333, abs=1e-4)
+    assert paper_rebound(*impact, *rest).peak_friction == pytest.approx(-forces.min(), rel=1e-7)
 
 
 def test_reloading_follows_the_line_of_unloading_up_to_the_earlier_peak():

@@ -67,8 +67,8 @@ def test_c_and_javascript_have_the_same_numbers(ending, tmp_path):
         for text, (wanted, fields) in zip(texts, parts, strict=True):
             assert [float(one) for one in re.findall(r"(?<!\w)\d[\d.e+-]*", text)] == list(wanted)
             assert re.findall(r"(\w+):", text) in ([], list(fields))
-        law = "PLASTIC" if pair.plastic else "VISCOUS"
-        assert loss.removeprefix("BALLS_") == ("0" if np.isnan(pair.restitution) else law)
+        law = "0" if np.isnan(pair.restitution) else str(pair.loss).upper()
+        assert loss.removeprefix("BALLS_") == law
     # Squares of the radius of gyration over the radius: of a solid sphere, and of a thin shell.
     assert [eval(root) for root in re.findall(r"radius \* .*?sqrt\((.*?)\)", code)] == [
         2 / 5,

@@ -380,7 +380,7 @@ def test_balls_have_the_numbers_of_their_presets_and_sources():
             own = dict(zip(("friction", "restitution", "radius"), own, strict=True))
             ball["state"] = own | ball["state"]
             assert zeta2 == pytest.approx(given.pair.stiffness_ratio, abs=1e-3)
-            assert state["loss"] == ("plastic" if given.pair.plastic else "viscous")
+            assert state["loss"] == given.pair.loss
         # Of the chart of materials: the row that name and source name.
         if "data/cornell1999" in (words := f"{ball['name']}, {ball.get('source')}"):
             (row,) = [one for one in table_files.read("cornell1999/pairs") if one["pair"] in words]
@@ -438,7 +438,8 @@ def test_the_numbers_shown_are_those_of_the_package(show):
     time, trace = value(tab, "time"), lumped.history(x, beta, zeta2, e)
     time = tab.evaluate(f"stage.first_bounce({time}).time")
     normal, friction, velocity = (
-        np.interp(time, trace.time, one) for one in (trace.normal, trace.friction, trace.velocity)
+        np.interp(time, trace.time, one)
+        for one in (trace.normal, trace.friction_force, trace.velocity)
     )
     shares = {
         "motion normal to the surface": e**2 * (1 - normal**2),

@@ -87,7 +87,7 @@ def test_the_contact_in_time_is_that_of_the_package(x, e, style, scripts):
     loss = None if e == 1 else style
     theirs = continuum.history(x, *SOLID, e, loss=loss, tolerance=TOLERANCE)
     assert abs(time[-1] - theirs.time[-1]) < 1e-3
-    names = "normal", "friction", "velocity", "contact_radius"
+    names = "normal", "friction_force", "velocity", "contact_radius"
     for name, column in zip(names, ours, strict=True):
         wanted = np.interp(time, theirs.time, getattr(theirs, name))
         # The contact of a plastic body parts with an infinite slope of its radius.
@@ -266,9 +266,9 @@ def test_energies_at_any_time_are_those_of_the_springs_and_of_friction(rubber):
     shares = np.array(
         evaluate(f"{times}.map((t) => Object.values(models.at(impact.contact, t).energy))")
     )
-    rate = found.friction * found.velocity
+    rate = found.friction_force * found.velocity
     work = (rate[1:] + rate[:-1]) / 2 * np.diff(found.time) * math.pi / 2
-    sheared = ZETA2 * found.friction**2
+    sheared = ZETA2 * found.friction_force**2
     slipped = 2 * np.concatenate([[0], np.cumsum(work)]) - sheared
     normal = (found.normal * np.where(found.time > 1, e, 1)) ** 2
     before = 1 + (FRICTION * INCIDENCE) ** 2 / BETA
@@ -280,7 +280,7 @@ def test_energies_at_any_time_are_those_of_the_springs_and_of_friction(rubber):
 
 def test_the_closer_look_shows_the_contact_in_time(rubber):
     e, found, evaluate = rubber
-    wanted = {"normal": found.normal, "limit": -found.normal, "friction": found.friction}
+    wanted = {"normal": found.normal, "limit": -found.normal, "friction": found.friction_force}
     for style, column in (wanted | {"velocity": found.velocity}).items():
         markup = evaluate(f"({CHART})('{'velocity' if style == 'velocity' else 'forces'}', impact)")
         time, values = curve(markup, style)

@@ -109,7 +109,7 @@ def test_an_edit_runs_again_what_it_concerns_whatever_its_date(path, words, jobs
 
 
 def test_an_edit_of_the_solver_runs_again_all_that_solves_with_it(tree):
-    back = changed(tree / "src/planarimpact/lumped/normal.py", new="# edited")
+    back = changed(tree / "src/planarimpact/common/results.py", new="# edited")
     every, again = tree.jobs()
     assert every - again == {"versions", *OF_FIG2}
     back()

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from planarimpact.bodies.quantities import HALF_SPACE, Body, all_positive, fields, in_range, quietly
+from planarimpact.bodies.quantities import HALF_SPACE, Body, all_positive, fields, quietly
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
-from planarimpact.common.checks import InputError
+from planarimpact.common.checks import LARGEST_RATIO, InputError, in_range
 
 
 @quietly
@@ -95,4 +95,4 @@ def mass_ratio(body: Body, other: Body = HALF_SPACE) -> Array:
     3.5
     """
     _, tangential, normal = _scaled_inverse_masses(body, other)
-    return in_range("mass_ratio", tangential / normal)
+    return in_range("mass_ratio", tangential / normal, 1.0, LARGEST_RATIO)

@@ -10,19 +10,6 @@ from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from planarimpact.common.checks import InputError, checked, finite, not_negative, positive
 
-
-class OutOfRange(InputError):
-    """A result beyond the range of numbers or of a law: `messages` of entries, by flat index."""
-
-    def __init__(self, messages: dict[int, str]) -> None:
-        super().__init__(next(iter(messages.values())))
-        self.messages = messages
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle it by its arguments, so that another process can raise it again."""
-        return type(self), (self.messages,)
-
-
 positive_or_infinite = partial(
     checked, allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True
 )
@@ -91,17 +78,8 @@ class Motion(NamedTuple):
 # A body that cannot turn, so its radius has no effect.
 HALF_SPACE = Body(mass=np.inf, gyration=np.inf, radius=0.0)
 
-# NumPy does not warn, whatever the caller has set: `in_range` refuses bad results.
+# NumPy does not warn, whatever the caller has set: `checks.in_range` refuses bad results.
 quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore", under="ignore")
-
-
-def in_range(name: str, values: Array, above: float = 0.0) -> Array:
-    """Return the values unchanged, or refuse them where one is not finite or |value| <= above."""
-    beyond = np.flatnonzero(~(np.isfinite(values) & (np.abs(values) > above)))
-    if beyond.size:
-        said = f"{name} = {{:g}}: it is beyond the range of numbers"
-        raise OutOfRange({i: said.format(np.ravel(values)[i]) for i in beyond.tolist()})
-    return values
 
 
 def all_positive(**arguments: ArrayLike) -> tuple[Array, ...]:

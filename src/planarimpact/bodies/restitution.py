@@ -12,17 +12,26 @@ contact where yield begins.
 import numpy as np
 
 from planarimpact.bodies.materials import hertz_peak_force
-from planarimpact.bodies.quantities import OutOfRange, all_positive, in_range, quietly
+from planarimpact.bodies.quantities import all_positive, quietly
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Number
-from planarimpact.common.checks import checked, not_negative, positive
-from planarimpact.normal_impact import LAWS, LEAST_RESTITUTION, LOSSES, kelvin_voigt, yielding
+from planarimpact.common.checks import (
+    LEAST_RATIO,
+    OutOfRange,
+    checked,
+    in_range,
+    not_negative,
+    positive,
+)
+from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
+from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt, yielding
 
+LAWS = {VISCOUS: kelvin_voigt, PLASTIC: yielding}
 # Relative rounding error of a relaxation time that `relaxation_time` returns.
 ROUNDING = 1e-12
 
 
-@quietly
+@checks.default_errors
 def viscous_restitution(
     speed: ArrayLike,
     relaxation_time: ArrayLike,
@@ -62,7 +71,7 @@ def viscous_restitution(
         effective_modulus=positive("effective_modulus", effective_modulus),
         effective_radius=positive("effective_radius", effective_radius),
     )
-    unit = in_range("unit of relaxation time", time_unit(v2, m2, modulus, radius))
+    unit = time_unit(v2, m2, modulus, radius)
     longest = kelvin_voigt.relaxation_time(np.array(LEAST_RESTITUTION)) * unit
     too_long = np.flatnonzero(tau > longest * (1 + ROUNDING))
     if too_long.size:
@@ -77,7 +86,7 @@ def viscous_restitution(
     return np.maximum(kelvin_voigt.restitution(tau / unit), LEAST_RESTITUTION)[()]
 
 
-@quietly
+@checks.default_errors
 def relaxation_time(
     restitution: ArrayLike,
     speed: ArrayLike,
@@ -99,9 +108,8 @@ def relaxation_time(
     e, v2, m2, modulus, radius = _checked_impact(
         restitution, speed, mass, effective_modulus, effective_radius
     )
-    unit = in_range("unit of relaxation time", time_unit(v2, m2, modulus, radius))
-    tau = kelvin_voigt.relaxation_time(e) * unit
-    return in_range("relaxation time", np.where(e < 1, tau, 0.0), above=-1.0)[()]
+    tau = kelvin_voigt.relaxation_time(e) * time_unit(v2, m2, modulus, radius)
+    return in_range("relaxation time", np.where(e < 1, tau, 0.0), 0.0)[()]
 
 
 @quietly
@@ -173,7 +181,7 @@ def plastic_restitution(
     # A yield speed that overflows to inf is above any speed: the contact stays elastic.
     yield_share = np.minimum(unchecked_yield_speed(pressure, m2, modulus, radius) / v2, 1.0)
     e = np.where(yield_share == 1, 1.0, np.minimum(yielding.restitution(yield_share), 1.0))
-    return in_range("restitution", e)[()]
+    return in_range("restitution", e, LEAST_RATIO, 1.0)[()]
 
 
 @quietly
@@ -205,7 +213,7 @@ def yield_pressure(
     return in_range("yield pressure", 2 / np.pi * modulus * power**0.4)[()]
 
 
-@quietly
+@checks.default_errors
 def peak_force(
     mass: ArrayLike,
     speed: ArrayLike,
@@ -230,7 +238,7 @@ def peak_force(
     >>> [round(float(peak_force(**steel, restitution=0.5, loss=loss))) for loss in losses]
     [1347, 960]
     """
-    law = LAWS[checks.loss(loss, LOSSES)]
+    law = LAWS[SPHERES[checks.loss(loss, SPHERES)]]
     e, v2, m2, modulus, radius = _checked_impact(
         restitution, speed, mass, effective_modulus, effective_radius
     )
@@ -257,7 +265,7 @@ def _checked_impact(
 
 
 def time_unit(v2: Number, m2: Number, modulus: Number, radius: Number) -> Number:
-    """L/v2 [s] of arrays or floats that are checked, of powers that do not overflow before it."""
+    """L/v2 [s] of arrays or floats that are checked."""
     return m2**0.4 / modulus**0.4 / radius**0.2 / v2**0.2
 
 

@@ -37,13 +37,11 @@ from planarimpact.collision.pairs import RESTITUTION_FROM as RESTITUTION_FROM
 from planarimpact.collision.pairs import Pair
 from planarimpact.collision.presets import Preset, presets
 from planarimpact.common import checks
-from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.arrays import Array, ArrayLike, Integers
 from planarimpact.common.checks import InputError
+from planarimpact.common.losses import NAMES
 from planarimpact.common.results import Regime
 from planarimpact.continuum import Unsolved
-from planarimpact.normal_impact import LOSSES as LOSSES
-from planarimpact.normal_impact import PLASTIC as PLASTIC
-from planarimpact.normal_impact import VISCOUS as VISCOUS
 
 __all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
 
@@ -70,8 +68,8 @@ class Collision:
         continuum [m/s]; less than v1(0). It is measured by searches, not proved.
     regime : ndarray of int, shape (...), or Regime
         Codes of `Regime`: the order of stick and slip, NO_IMPACT where bodies do not approach.
-    plastic : ndarray of bool, shape (...)
-        Whether the loss is plastic, else viscous; without a meaning where e = 1.
+    loss_code : ndarray of int, shape (...)
+        Of the loss, in `planarimpact.common.losses.NAMES`; -1 where e = 1 or without an impact.
     """
 
     velocity: Array
@@ -83,15 +81,14 @@ class Collision:
     restitution: Array
     error_bound: Array
     regime: Any
-    plastic: Booleans
+    loss_code: Integers
     # Gives it, or has the impact alone solved as an array; as partial functions can be pickled.
     _model_form: "Callable[[], Array | Collision]" = field(repr=False)
 
     @property
     def loss(self) -> NDArray[np.str_]:
         """What took the energy: viscous or plastic, or none where e = 1 or without an impact."""
-        lossy = self.restitution < 1
-        return np.where(lossy, np.where(self.plastic, PLASTIC, VISCOUS), "none")
+        return NAMES[self.loss_code]
 
     @cached_property
     def model_form(self) -> Array:
@@ -203,7 +200,7 @@ def _collide_arrays(
     # Also where nothing approaches: a normal of two centres at one place is no number, or zero.
     for i, problem in problems_of_normals(given.normal).items():
         raise InputError(f"{_place(i, shape)}{problem}")
-    approach = np.flatnonzero(~(given.v2 <= 0))  # or it is too large to tell
+    approach = np.flatnonzero(given.v2 > 0)
     met = given if approach.size == given.v2.size else given.take(approach)
     for i, problem in problems(met).items():
         raise InputError(f"{_place(approach[i], shape)}{problem}")
@@ -268,7 +265,7 @@ def _collision(
         restitution=whole(met.restitution, np.nan),
         error_bound=whole(answer.error, np.nan),
         regime=regime if shape else Regime(int(regime)),
-        plastic=whole(met.plastic, False),
+        loss_code=whole(met.loss_code, -1),
         _model_form=form,
     )
 

@@ -10,13 +10,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import continuum, models, spheres
+from planarimpact import continuum, spheres
 from planarimpact.collision.mechanics import Impacts, slides_throughout
 from planarimpact.common import sliding
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import ConvergenceError
+from planarimpact.common.losses import CODES, PLASTIC, SPHERES, Loss
 from planarimpact.common.results import Rebound, Regime
-from planarimpact.normal_impact import PLASTIC, VISCOUS
 
 # Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
 # that is solved has no larger error in v1(0) either, so that friction of any size has an effect.
@@ -26,36 +26,38 @@ ROUNDING = 1e-12
 
 
 class Method(NamedTuple):
-    """A model, the way to its answer ("formula", "table" or "solved"), and why impacts get it."""
+    """A model, the way to its answer ("formula", "table" or "solved"), and why impacts get it.
+
+    The loss is that of the continuum; there is none by a formula, or where it is elastic.
+    """
 
     model: str
     way: str
     why: str
+    loss: Loss | None = None
 
     @property
     def name(self) -> str:
         """Model and way, in words."""
         return self.model if self.way == "formula" else f"{self.model}, {self.way}"
 
-    @property
-    def loss(self) -> str | None:
-        """What takes the energy; nothing by a formula, or where the continuum is elastic."""
-        return self.model.partition(".")[2] or None
-
 
 FORMULAS = (
     Method("slip throughout", "formula", "they slide from first to last, by Coulomb's law"),
     Method("head-on", "formula", "they have no tangential motion"),
 )
-CONTINUUM_WAYS = TABLED, TOO_COARSE, NOT_COVERED = (
+CONTINUUM_WAYS = (
     ("table", "the table of spheres covers them, and its error is below the tolerance"),
     ("solved", "the table of spheres covers them, but its error is above the tolerance"),
     ("solved", "the table of spheres does not cover them"),
 )
-CONTINUA = {"": "continuum", **models.losses("continuum")}  # by loss
 METHODS = (
     *FORMULAS,
-    *(Method(model, *way) for way in CONTINUUM_WAYS for model in CONTINUA.values()),
+    *(
+        Method(f"continuum.{loss.name}" if loss else "continuum", *way, loss)
+        for way in CONTINUUM_WAYS
+        for loss in (None, *SPHERES.values())  # by code, from -1 on
+    ),
 )
 SLIDING, HEAD_ON = map(METHODS.index, FORMULAS)
 IS_CONTINUUM = np.array([method not in FORMULAS for method in METHODS])
@@ -73,25 +75,15 @@ def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
     place, error = np.where(slides, SLIDING, HEAD_ON), np.zeros(slides.size)
     rows = np.flatnonzero(~slides & ~head_on)
     groups = impacts.groups_of(rows)
-    elastic = groups[2] == 1
-    plastic = impacts.plastic[rows] & ~elastic
+    loss_code = impacts.loss_code[rows]
     x = impacts.incidence_of(rows)
-    of_table = table_error(spheres.error_bound(*groups, plastic), groups[0], x)
+    of_table = table_error(spheres.error_bound(*groups, loss_code == CODES[PLASTIC]), groups[0], x)
     tabled, covered = of_table <= tolerance, np.isfinite(of_table)
-    for way, which in (
-        (TABLED, tabled),
-        (TOO_COARSE, covered & ~tabled),
-        (NOT_COVERED, ~covered),
-    ):
-        lossy = np.where(plastic, _place(PLASTIC, way), _place(VISCOUS, way))
-        place[rows[which]] = np.where(elastic, _place("", way), lossy)[which]
+    for way, which in enumerate((tabled, covered & ~tabled, ~covered)):
+        elastic = len(FORMULAS) + way * (1 + len(SPHERES))
+        place[rows[which]] = elastic + 1 + loss_code[which]
     error[rows] = np.where(tabled, of_table, _tolerance(x, tolerance))
     return place, error * impacts.unit
-
-
-def _place(loss: str, way: tuple[str, str]) -> int:
-    """The place in `METHODS` of the continuum with a loss, or elastic, in one of its ways."""
-    return METHODS.index(Method(CONTINUA[loss], *way))
 
 
 def _tolerance(x: Array, tolerance: float) -> Array:
@@ -120,8 +112,7 @@ def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
     """Each impact answered by its method, with its peak friction or, in less time, without."""
     place, error = of_each(impacts, tolerance)
     slides = place == SLIDING
-    with np.errstate(over="ignore"):
-        fall = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
+    fall = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
     change = np.where(slides, -fall, 0.0)
     velocity = impacts.v1 + change
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
@@ -141,9 +132,9 @@ def _add_continuum(
         rebound, with_answer, messages = solved(method.loss, x, groups, _tolerance(x, tolerance))
         result.unsolved.update({int(rows[i]): message for i, message in messages.items()})
         rows = rows[with_answer]
-    else:  # at e = 1 the table has the same answer for both losses
-        loss = method.loss or VISCOUS
-        rebound = spheres.rebound(x, *groups, loss=loss, forces=peaks)
+    else:
+        name = method.loss.name if method.loss else None
+        rebound = spheres.rebound(x, *groups, loss=name, forces=peaks)
     result.velocity[rows] = rebound.velocity * impacts.unit[rows]
     result.change[rows] = result.velocity[rows] - impacts.v1[rows]
     result.peak_friction[rows] = rebound.peak_friction
@@ -151,7 +142,7 @@ def _add_continuum(
 
 
 def solved(
-    loss: str | None, incidence: Array, groups: tuple[Array, ...], tolerance: Array
+    loss: Loss | None, incidence: Array, groups: tuple[Array, ...], tolerance: Array
 ) -> tuple[Rebound, Integers, dict[int, str]]:
     """The continuum, solved to the tolerance of each impact, in mu v2(0).
 
@@ -161,7 +152,8 @@ def solved(
     while True:
         try:
             arguments = incidence[rows], *(group[rows] for group in groups)
-            rebound = continuum.rebound(*arguments, loss=loss, tolerance=tolerance[rows])
+            name = loss.name if loss else None
+            rebound = continuum.rebound(*arguments, loss=name, tolerance=tolerance[rows])
             return rebound, rows, messages
         except ConvergenceError as error:
             # An error that names no impacts concerns all of them.

@@ -1,8 +1,8 @@
 """One impact in Python's own floats, for event-driven codes: some tens of microseconds.
 
 The physics is that of `mechanics` and `methods`, in numbers in place of arrays; a test compares.
-They answer what is left to them here: a bad argument, no approach, no friction, numbers beyond
-`PLAIN_MOST`, and an impact that the table of spheres does not answer within the tolerance.
+They answer what is left to them here: a bad argument, no approach, no friction, velocities beyond
+the rule of sizes, and an impact that the table of spheres does not answer within the tolerance.
 """
 
 from collections.abc import Sequence
@@ -16,8 +16,9 @@ from planarimpact import bodies, spheres
 from planarimpact.bodies import Body
 from planarimpact.collision.mechanics import cross, dot
 from planarimpact.collision.methods import table_error
-from planarimpact.collision.pairs import PLAIN_LEAST, PLAIN_MOST, Pair
-from planarimpact.common import checks
+from planarimpact.collision.pairs import Pair
+from planarimpact.common import checks, losses
+from planarimpact.common.checks import LARGEST, LARGEST_RATIO, LEAST, LEAST_RATIO
 from planarimpact.common.results import Regime
 from planarimpact.normal_impact import kelvin_voigt, yielding
 from planarimpact.spheres import table
@@ -25,6 +26,7 @@ from planarimpact.spheres import table
 # The table has the incidence from which plastic impacts slide throughout with an error below 1 %.
 # Within it the functions of arrays know better.
 UNSURE = 0.01
+PLASTIC, NONE = losses.CODES[losses.PLASTIC], np.array(-1, np.int8)
 
 
 def collide(
@@ -53,19 +55,23 @@ def collide(
     tangential = _sum(relative, v2, normal)
     v1 = sqrt(dot(tangential, tangential))
     mu, zeta2, modulus, e, relaxation_time, yield_pressure = pair.floats
-    if not (PLAIN_LEAST <= v2 <= PLAIN_MOST and PLAIN_LEAST <= v1 <= PLAIN_MOST and mu):
+    if not (LEAST <= v2 <= LARGEST and LEAST <= v1 <= LARGEST and mu):
         return []
     m2 = 1 / (inverse + other_inverse)
     beta = m2 * (mobility + other_mobility)
-    plastic = bool(pair.plastic)
+    plastic = int(pair.loss_code) == PLASTIC
     if e != e:
         curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
         if not curvature:
             return []
         quantities = m2, modulus, 1 / curvature
         if plastic:
-            yields_at = bodies.unchecked_yield_speed(yield_pressure, *quantities)
-            found = yielding.restitution(np.array(min(yields_at / v2, 1.0)))
+            if yield_pressure > LARGEST_RATIO * modulus:
+                return []
+            share = bodies.unchecked_yield_speed(yield_pressure, *quantities) / v2
+            if share < LEAST_RATIO:
+                return []
+            found = yielding.restitution(np.array(min(share, 1.0)))
         else:
             tau = relaxation_time / bodies.time_unit(v2, *quantities)
             # Beyond the law its slowest contact, whose restitution the table does not cover.
@@ -74,7 +80,7 @@ def collide(
     b, unit = beta / zeta2, mu * v2
     x = v1 / unit
     y = x / zeta2
-    covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1
+    covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1 and x >= LEAST
     if not (covered and zeta2 <= spheres.LARGEST_STIFFNESS and spheres.LEAST_RESTITUTION <= e <= 1):
         return []
     yields = plastic and e < 1
@@ -100,7 +106,8 @@ def collide(
         _sum(other_spin, -other_turn, moment),
         impulse,
     )
-    return [*np.array(after), *np.array((x, e, error * unit)), regime, pair.plastic]
+    loss_code = pair.loss_code if e < 1 else NONE
+    return [*np.array(after), *np.array((x, e, error * unit)), regime, loss_code]
 
 
 @lru_cache(maxsize=4096)
@@ -108,7 +115,7 @@ def _inertia(body: Body) -> tuple[float, ...]:
     """Radius, 1/M, (1 + (r/k)^2)/M and r/(M k^2) of a body of plain numbers, else an error."""
     mass, gyration, radius = map(float, body)  # an array is a TypeError
     for number in (mass, gyration, radius or inf):
-        if not (PLAIN_LEAST <= number <= PLAIN_MOST or number == inf):
+        if not (LEAST <= number <= LARGEST or number == inf):
             raise ValueError
     arm = radius / gyration
     return radius, 1 / mass, (1 + arm * arm) / mass, arm / gyration / mass
@@ -120,7 +127,7 @@ def floats(vector: Any) -> list[float]:
         return vector.tolist() if vector.dtype == float and vector.shape == (3,) else []
     plain = type(vector) in (list, tuple) and len(vector) == 3
     plain = plain and {float, int}.issuperset(map(type, vector))
-    return [*vector] if plain and max(map(abs, vector)) <= PLAIN_MOST else []
+    return [*vector] if plain and max(map(abs, vector)) <= LARGEST else []
 
 
 def _sum(a: Sequence[float], factor: float, b: Sequence[float]) -> list[float]:

@@ -3,23 +3,20 @@
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from planarimpact import bodies, normal_impact
+from planarimpact import bodies
 from planarimpact.bodies import Material
 from planarimpact.common import checks
-from planarimpact.common.arrays import LARGEST, SMALLEST, Array, ArrayLike, Booleans
+from planarimpact.common.arrays import Array, ArrayLike, Integers
 from planarimpact.common.checks import InputError
-from planarimpact.normal_impact import LOSSES, PLASTIC, VISCOUS
+from planarimpact.common.losses import CODES, NAMES, SPHERES
 
 # What gives the restitution, and the loss that comes with it: the restitution itself, or a property
 # of the materials that gives it at the speed of each impact.
-RESTITUTION_FROM: dict[str, str | None] = {"restitution": None}
-RESTITUTION_FROM |= {law.property: loss for loss, law in normal_impact.LAWS.items()}
+RESTITUTION_FROM = {"restitution": ""} | {loss.material: name for name, loss in SPHERES.items()}
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *RESTITUTION_FROM)
-_ARRAYS = (*_FIELDS, "plastic")
-# Sizes of numbers that `one_impact` computes with. No product that it needs leaves the range of
-# numbers.
-PLAIN_LEAST, PLAIN_MOST = 1e-25, 1e25
+_ARRAYS = (*_FIELDS, "loss_code")
 
 
 class Pair:
@@ -50,8 +47,9 @@ class Pair:
     ----------
     friction, stiffness_ratio, effective_modulus, restitution, relaxation_time, yield_pressure
         As above, arrays of one shape; NaN where the pair does not have it.
-    plastic : ndarray of bool
-        Whether the loss is plastic, else viscous; without a meaning where e = 1.
+    loss, loss_code : ndarray of str, ndarray of int
+        Name of the loss, and its place in `planarimpact.common.losses.NAMES`; "none" and -1 where
+        none is said.
     shape : tuple of int
 
     Raises
@@ -76,10 +74,10 @@ class Pair:
     ... )
     >>> table[[0, 1], [1, 1]].friction.tolist()
     [0.3, 0.4]
-    >>> Pair(steel, friction=0.1, restitution=0.8)
+    >>> Pair(steel, friction=0.1, restitution=0.8)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution = 0.8: below 1 it needs a loss: choose viscous, plastic
+    planarimpact.InputError: restitution = 0.8: below 1 it needs a loss: choose viscous...
     """
 
     friction: Array
@@ -88,8 +86,8 @@ class Pair:
     restitution: Array
     relaxation_time: Array
     yield_pressure: Array
-    plastic: Booleans
-    floats: tuple[float, ...]  # the fields but `plastic`, if they are plain numbers of one pair
+    loss_code: Integers
+    floats: tuple[float, ...]  # the fields but `loss_code`, if they are plain numbers of one pair
     __slots__ = (*_ARRAYS, "floats")
 
     def __init__(
@@ -104,27 +102,29 @@ class Pair:
         effective_modulus: ArrayLike | None = None,
     ) -> None:
         laws = {
-            "restitution": _law("restitution", restitution, "numbers from 0 to 1", 0, 1),
-            "relaxation_time": _law("relaxation_time", relaxation_time, "numbers from 0", 0),
-            "yield_pressure": _law("yield_pressure", yield_pressure, "numbers above 0", SMALLEST),
+            "restitution": checks.restitution(_given(restitution), missing=True),
+            "relaxation_time": checks.not_negative(
+                "relaxation_time", _given(relaxation_time), missing=True
+            ),
+            "yield_pressure": checks.positive(
+                "yield_pressure", _given(yield_pressure), missing=True
+            ),
         }
         stiffness = _stiffness(materials, stiffness_ratio, effective_modulus)
         mu = checks.not_negative("friction", friction)
-        named = {"friction": mu, **stiffness, **laws, "loss": checks.losses(loss, LOSSES)}
-        arrays = dict(zip(named, checks.broadcast(**named), strict=True))
-        codes = arrays.pop("loss")
+        named: dict[str, Any] = {"friction": mu, **stiffness, **laws}
+        named["loss_code"] = checks.losses(loss, SPHERES)
+        arrays: dict[str, Any] = dict(zip(named, checks.broadcast(**named), strict=True))
         _refuse_other_laws(arrays)
-        _refuse_loss(arrays, codes)
-        yields = ~np.isnan(arrays["yield_pressure"])
-        by_law = ~np.isnan(arrays["relaxation_time"]) | yields
+        arrays["loss_code"] = _of_law(arrays)
+        by_law = np.isnan(arrays["restitution"])
         if (by_law & np.isnan(arrays["effective_modulus"])).any():
             raise InputError(
                 "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
                 "the materials"
             )
-        plastic = (codes == LOSSES.index(PLASTIC)) | yields
         # Copies: what the caller does with its arrays later does not change the pair.
-        _fill(self, *(np.array(arrays[name]) for name in _FIELDS), plastic)
+        _fill(self, *(np.array(arrays[name]) for name in _ARRAYS))
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a Pair cannot be changed: make a new one with another {name}")
@@ -134,9 +134,14 @@ class Pair:
         return _made, tuple(getattr(self, name) for name in _ARRAYS)
 
     @property
+    def loss(self) -> NDArray[np.str_]:
+        """What takes the energy below e = 1, by its name; "none" where none is said."""
+        return NAMES[self.loss_code]
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """Shape of the array of pairs; () of a single one."""
-        return self.plastic.shape
+        return self.loss_code.shape
 
     def __getitem__(self, index: Any) -> "Pair":
         """Some pairs of a table, by an index as of its arrays."""
@@ -153,7 +158,7 @@ class Pair:
         numbers = {name: float(getattr(self, name)) for name in _FIELDS}
         del numbers["effective_modulus"]
         shown = [f"{k} = {v:.4g}" for k, v in numbers.items() if not np.isnan(v)]
-        loss = [] if numbers["restitution"] == 1 else [PLASTIC if self.plastic else VISCOUS]
+        loss = [] if numbers["restitution"] == 1 else [str(self.loss)]
         return f"<Pair: {', '.join(shown + loss)}>"
 
 
@@ -170,16 +175,13 @@ def _fill(pair: Pair, *fields: Array) -> None:
         values.setflags(write=False)
         object.__setattr__(pair, name, values.view())  # NumPy lets an array be written again
     numbers = () if pair.shape else tuple(float(getattr(pair, name)) for name in _FIELDS)
-    plain = all(not n or n != n or PLAIN_LEAST <= n <= PLAIN_MOST for n in numbers)
+    plain = all(not n or n != n or n >= checks.LEAST for n in numbers)
     object.__setattr__(pair, "floats", numbers if plain else ())
 
 
-def _law(
-    name: str, value: ArrayLike | None, allowed: str, low: float, high: float = LARGEST
-) -> Array:
+def _given(value: ArrayLike | None) -> ArrayLike:
     """Numbers of one law, NaN where a pair does not have it."""
-    given = np.nan if value is None else value
-    return checks.checked(name, given, f"finite {allowed}", low, high, missing=True)
+    return np.nan if value is None else value
 
 
 def _stiffness(
@@ -213,13 +215,16 @@ def _refuse_other_laws(arrays: dict[str, Array]) -> None:
         raise InputError(f"{names}: {count} of them given, needed is exactly one a pair")
 
 
-def _refuse_loss(arrays: dict[str, Array], codes: Array) -> None:
-    """Refuse a loss that is missing below e = 1, or another one than that of the law."""
-    restitution = arrays["restitution"]
+def _of_law(arrays: dict[str, Any]) -> Integers:
+    """Codes of the losses, those of laws too; refuse another one, or none below e = 1."""
+    restitution, codes = arrays["restitution"], arrays["loss_code"]
     missing = (restitution < 1) & (codes < 0)
-    if missing.any():
-        checks.require_loss(np.where(missing, restitution, 1.0), LOSSES)
-    for name, loss in RESTITUTION_FROM.items():
-        if loss and (~np.isnan(arrays[name]) & (codes >= 0) & (codes != LOSSES.index(loss))).any():
-            (other,) = set(LOSSES) - {loss}
-            raise InputError(f"loss = '{other}': allowed with {name} is {loss}; it may be left out")
+    checks.require_loss(np.where(missing, restitution, 1.0), SPHERES)
+    for loss in SPHERES.values():
+        has = ~np.isnan(arrays[loss.material])
+        others = NAMES[codes[has & (codes >= 0) & (codes != CODES[loss])]]
+        if others.size:
+            allowed = f"allowed with {loss.material} is {loss.name}; it may be left out"
+            raise InputError(f"loss = '{others[0]}': {allowed}")
+        codes = np.where(has, CODES[loss], codes)
+    return codes

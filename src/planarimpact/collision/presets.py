@@ -1,8 +1,6 @@
 """Presets: bodies with their pairs of materials, and the sources of their numbers."""
 
-import tomllib
 from functools import cache
-from importlib import resources
 from typing import Any, NamedTuple
 
 from planarimpact import bodies
@@ -51,6 +49,9 @@ def presets() -> dict[str, Preset]:
 @cache
 def _presets() -> dict[str, Preset]:
     """Presets by name, of which nobody gets the original."""
+    import tomllib  # here, as most programs do without presets
+    from importlib import resources
+
     text = resources.files(__package__).joinpath("presets.toml").read_text(encoding="utf-8")
     return {name: _preset(**given) for name, given in tomllib.loads(text).items()}
 

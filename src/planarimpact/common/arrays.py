@@ -10,7 +10,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Array", "ArrayLike", "Booleans", "Integers", "Number", "Numbers", "LARGEST", "SMALLEST"]
+__all__ = ["Array", "ArrayLike", "Booleans", "Integers", "Number", "Numbers", "SMALLEST"]
 
 Array: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.integer]
@@ -19,5 +19,5 @@ Booleans: TypeAlias = NDArray[np.bool_]
 Numbers: TypeAlias = float | Array
 # The same, of formulas that return what they take.
 Number = TypeVar("Number", float, Array)
-# The least number above 0, and the largest one.
-SMALLEST, LARGEST = float(np.finfo(float).smallest_subnormal), float(np.finfo(float).max)
+# The least number above 0.
+SMALLEST = float(np.finfo(float).smallest_subnormal)

@@ -10,16 +10,22 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.common.arrays import Array, ArrayLike, Booleans, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers, Numbers
 
-# Largest incidence and mass ratio: twice as much is still below the largest float64.
-LARGEST = 8e307
+# The rule of sizes. States (velocities, masses, lengths, moduli, forces, times) and the incidence
+# are at most LARGEST; what must be above 0 is at least LEAST. What may be 0 may be tiny too, as in
+# a simulation that comes to rest. Ratios of masses and of stiffnesses, and a restitution other than
+# 0, lie between LEAST_RATIO and LARGEST_RATIO. Products of three such numbers are below 1e300.
+LEAST, LARGEST = 1e-100, 1e100
+LEAST_RATIO, LARGEST_RATIO = 1e-12, 1e12
 # Least incidence of `collide` other than 0. The answer is in proportion to v1(0) long before, so
-# that a larger friction coefficient changes nothing; and from here on numbers keep their digits.
-LEAST_INCIDENCE = 1e-100
+# that a larger friction coefficient changes nothing.
+LEAST_INCIDENCE = LEAST
 # Largest error of the length of a normal that is taken for one of rounding, float32 too: 1e-6, with
 # room for the rounding of the length itself.
 LENGTH_ERROR = 1.000001e-6
+# Largest frequency of stick over that of the normal element: a contact has thousands of phases.
+LARGEST_FREQUENCY = 1e4
 # Largest count of samples, points or steps: tables still fit into memory, and so many steps take a
 # few minutes.
 MOST = 10_000_000
@@ -29,7 +35,7 @@ MOST = 10_000_000
 default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 
 # Texts of a loss that is not said, and of missing values.
-NO_LOSS = "", "None", "nan", "<NA>", "NaT"
+NO_LOSS = "", "none", "None", "nan", "<NA>", "NaT"
 _NUMBERS = int, float, np.integer, np.floating
 
 _DOWN = Context(prec=4, rounding=ROUND_DOWN)
@@ -42,6 +48,20 @@ class InputError(ValueError):
     """An argument is not allowed. The message names it, its value and what is allowed."""
 
     __module__ = "planarimpact"  # where users find it, and what a traceback shows
+
+
+class OutOfRange(InputError):
+    """A quantity beyond the rule of sizes or a law: `messages` of its entries, by flat index."""
+
+    __module__ = "planarimpact.bodies"
+
+    def __init__(self, messages: dict[int, str]) -> None:
+        super().__init__(next(iter(messages.values())))
+        self.messages = messages
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle it by its arguments, so that another process can raise it again."""
+        return type(self), (self.messages,)
 
 
 class ConvergenceError(ArithmeticError):
@@ -70,17 +90,17 @@ def checked(
     name: str,
     value: ArrayLike,
     allowed: str,
-    low: float = -math.inf,
-    high: float = math.inf,
+    low: float = -LARGEST,
+    high: float = LARGEST,
     open_low: bool = False,
     infinite: bool = False,
     missing: bool = False,
 ) -> Array:
     """Return real numbers as float64 of the same shape, or refuse them and say what is allowed.
 
-    The bounds are inclusive, `low` exclusive with `open_low`; an infinity passes with `infinite`
-    only, NaN with `missing` only. Booleans, strings, complex numbers and masked entries are
-    refused; all else is what NumPy makes of it.
+    The bounds are inclusive, `low` exclusive with `open_low`, and above 0 means from `LEAST` on.
+    Infinity passes with `infinite` only, NaN with `missing` only. Booleans, strings, complex
+    numbers and masked entries are refused; all else is what NumPy makes of it.
 
     Examples
     --------
@@ -90,7 +110,13 @@ def checked(
     Traceback (most recent call last):
     ...
     planarimpact.InputError: restitution[1] = 1.5: allowed are numbers from 0 to 1
+    >>> checked("mass", 1e-200, "finite numbers above 0", 0, open_low=True)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: mass = 1e-200: allowed are sizes from 1e-100 to 1e+100
     """
+    if open_low and low == 0:
+        low, open_low = LEAST, False
     if _is_masked(value):
         raise InputError(
             f"{name} has masked entries: allowed are {allowed}; leave the masked entries out with "
@@ -111,28 +137,76 @@ def checked(
     with np.errstate(invalid="ignore", over="ignore", under="ignore"):
         numbers = array.astype(np.float64)
         passes = (numbers > low if open_low else numbers >= low) & (numbers <= high)
-    # A number that is infinite only as float64 was too large.
-    passes &= np.isfinite(numbers) | (np.isinf(array) & infinite)
+    if infinite:  # what is infinite only as float64 was too large
+        passes |= np.isinf(array) & (numbers > 0)
     if missing:
         passes |= np.isnan(numbers)
     if not passes.all():
-        raise InputError(f"{_first(name, numbers, ~passes)}: allowed are {allowed}")
+        where, number = _first(numbers, ~passes)
+        raise InputError(refusal(name + where, number, allowed, low, high))
     return numbers
 
 
-def _first(name: str, numbers: Array, wrong: Booleans) -> str:
-    """The first wrong number, with its name and place."""
+def refusal(
+    name: str, number: float, allowed: str, low: float, high: float, shown: str = ""
+) -> str:
+    """What a message says of a number outside its bounds: what is allowed, or the rule of sizes.
+
+    `shown` is the number as its caller wrote it, if that is another text.
+
+    Examples
+    --------
+    >>> refusal("mass", -1.0, "numbers above 0", LEAST, LARGEST)
+    'mass = -1.0: allowed are numbers above 0'
+    """
+    size = number if math.isfinite(number) else 0.0
+    shown = shown or str(number)
+    for least, most in ((LEAST, LARGEST), (LEAST_RATIO, LARGEST_RATIO)):
+        if size > high == most or size < low == -most or 0 < size < low == least:
+            return _beyond(name, shown, least, most)
+    return f"{name} = {shown}: allowed are {allowed}"
+
+
+def _beyond(name: str, shown: str, least: float, most: float) -> str:
+    """The one sentence that refuses a size."""
+    return f"{name} = {shown}: allowed are sizes from {least:g} to {most:g}"
+
+
+def in_range(name: str, values: Array, least: float = LEAST, most: float = LARGEST) -> Array:
+    """Return quantities unchanged, or refuse those whose sizes are beyond the rule or no numbers.
+
+    Examples
+    --------
+    >>> in_range("mass", np.array([0.1, 1e-300]))
+    Traceback (most recent call last):
+    ...
+    planarimpact.bodies.OutOfRange: mass = 1e-300: allowed are sizes from 1e-100 to 1e+100
+    """
+    size = np.abs(values)
+    wrong = np.flatnonzero(~((size >= least) & (size <= most)))
+    if wrong.size:
+        least = least or LEAST  # what may be 0 may be tiny too
+        numbers = np.ravel(values)[wrong].tolist()
+        said = (_beyond(name, f"{number:g}", least, most) for number in numbers)
+        raise OutOfRange(dict(zip(wrong.tolist(), said, strict=True)))
+    return values
+
+
+def _first(numbers: Array, wrong: Booleans) -> tuple[str, float]:
+    """The place of the first wrong number, as a message shows it, and the number."""
     index = tuple(int(i) for i in np.argwhere(wrong)[0])
     where = f"[{', '.join(map(str, index))}]" if index else ""
-    return f"{name}{where} = {float(numbers[index])}"
+    return where, float(numbers[index])
 
 
 def _is_masked(value: object) -> bool:
     """Whether an entry is masked, in lists of arrays too: NumPy's conversion ignores the mask."""
     if isinstance(value, (list, tuple)):
-        nested = list, tuple, np.ma.MaskedArray
+        nested = list, tuple, np.ndarray
         return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
-    return isinstance(value, np.ma.MaskedArray) and bool(np.ma.is_masked(value))
+    # Numbers and plain arrays do without numpy.ma, which takes longer to import than this package.
+    is_special = isinstance(value, np.ndarray) and type(value) is not np.ndarray
+    return is_special and bool(np.ma.is_masked(value))
 
 
 def _has_booleans(value: object) -> bool:
@@ -164,30 +238,62 @@ def real(name: str, value: ArrayLike) -> Array:
     """Check that numbers are real, NaN and infinity too; those of an array of float64 are."""
     if type(value) is np.ndarray and value.dtype == np.float64:
         return value
-    return checked(name, value, "real numbers", infinite=True, missing=True)
+    return checked(name, value, "real numbers", -math.inf, math.inf, missing=True)
 
 
 def incidence(value: ArrayLike) -> Array:
-    """Check an incidence x = v1(0)/(mu v2(0)): any number whose work of friction is finite."""
-    rule = "finite numbers from -8e307 to 8e307 (the work of friction is up to twice as large)"
-    return checked("incidence", value, rule, -LARGEST, LARGEST)
+    """Check an incidence x = v1(0)/(mu v2(0)), of any sign.
+
+    A tiny one is not refused: velocities are in proportion to it. Below 1e-300 digits are lost.
+    """
+    return finite("incidence", value)
 
 
 def mass_ratio(value: ArrayLike) -> Array:
     """Check beta = m2/m1 >= 1: a free rigid body has beta = 1 + (x2/k)^2."""
-    rule = "finite numbers from 1 to 8e307 (a free body has 1 + (x2/k)^2)"
-    return checked("mass_ratio", value, rule, 1, LARGEST)
+    rule = "finite numbers from 1 (a free body has 1 + (x2/k)^2)"
+    return checked("mass_ratio", value, rule, 1, LARGEST_RATIO)
 
 
 def stiffness_ratio(value: ArrayLike) -> Array:
     """Check zeta^2 > 0; its limit 0, no tangential compliance, is `planarimpact.rigid`."""
     rule = "finite numbers above 0 (for no tangential compliance use planarimpact.rigid)"
-    return checked("stiffness_ratio", value, rule, 0, open_low=True)
+    return checked("stiffness_ratio", value, rule, LEAST_RATIO, LARGEST_RATIO)
 
 
-def restitution(value: ArrayLike) -> Array:
-    """Check the energetic coefficient of restitution, 0 <= e <= 1."""
-    return checked("restitution", value, "numbers from 0 to 1", 0, 1)
+def tangential_frequency(
+    mass_ratio: Array, stiffness_ratio: Array, restitution: Array, of_loss: Array
+) -> None:
+    """Refuse a tangential element that is too stiff; `of_loss` is the stiffness ratio with a loss.
+
+    Examples
+    --------
+    >>> beta, zeta2, e = np.full((3, 1), [[4.0], [1e-9], [1.0]])
+    >>> tangential_frequency(beta, zeta2, e, zeta2)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: stiffness_ratio = 1e-09: at mass_ratio = 4, restitution = 1 allowed \
+are tangential frequencies omega/Omega up to 10000 (for no tangential compliance use rigid)
+    """
+    stiff = mass_ratio > LARGEST_FREQUENCY**2 * of_loss
+    if stiff.any():
+        beta, zeta2, e = (
+            float(group[stiff][0]) for group in (mass_ratio, stiffness_ratio, restitution)
+        )
+        raise InputError(
+            f"stiffness_ratio = {zeta2}: at mass_ratio = {beta:g}, restitution = {e:g} allowed are "
+            f"tangential frequencies omega/Omega up to {LARGEST_FREQUENCY:g} (for no tangential "
+            "compliance use rigid)"
+        )
+
+
+def restitution(value: ArrayLike, missing: bool = False) -> Array:
+    """Check the energetic coefficient of restitution, 0 <= e <= 1; NaN passes with `missing`."""
+    numbers = checked("restitution", value, "numbers from 0 to 1", 0, 1, missing=missing)
+    tiny = (numbers > 0) & (numbers < LEAST_RATIO)
+    if tiny.any():
+        in_range("restitution", np.where(tiny, numbers, 1.0), LEAST_RATIO, 1)
+    return numbers
 
 
 def word(name: str, value: str, allowed: Collection[str]) -> str:
@@ -209,7 +315,7 @@ def word(name: str, value: str, allowed: Collection[str]) -> str:
 loss = partial(word, "loss")
 
 
-def losses(value: Any, allowed: tuple[str, ...]) -> Array:
+def losses(value: Any, allowed: Collection[str]) -> Integers:
     """Check names of losses, one or an array: the place of each in `allowed`, -1 where it has none.
 
     None is said by an empty text, None, NaN or what pandas has where a value is missing.
@@ -217,7 +323,7 @@ def losses(value: Any, allowed: tuple[str, ...]) -> Array:
     Examples
     --------
     >>> losses(["plastic", None, "viscous"], ("viscous", "plastic")).tolist()
-    [1.0, -1.0, 0.0]
+    [1, -1, 0]
     """
     if _is_masked(value):
         loss(value, allowed)
@@ -225,7 +331,7 @@ def losses(value: Any, allowed: tuple[str, ...]) -> Array:
     if not (isinstance(value, np.ndarray) and value.dtype.kind == "U"):  # which needs no time
         cells = np.asarray(value, dtype=object)
         words = np.array([str(cell) for cell in cells.flat], dtype=str).reshape(cells.shape)
-    codes = np.where(np.isin(words, NO_LOSS), -1.0, -2.0)
+    codes = np.where(np.isin(words, NO_LOSS), np.int8(-1), np.int8(-2))
     for code, name in enumerate(allowed):
         codes[words == name] = code
     if (codes < -1).any():
@@ -248,8 +354,9 @@ def require_loss(value: ArrayLike, choices: Iterable[str], needed: str = "a loss
     if (numbers == 1).all():
         return
     names = [f"{one} (the paper's)" if one.endswith("hysteretic") else one for one in choices]
-    lossy = _first("restitution", numbers, numbers < 1)
-    raise InputError(f"{lossy}: below 1 it needs {needed}: choose {', '.join(names)}")
+    where, lossy = _first(numbers, numbers < 1)
+    said = f"restitution{where} = {lossy}: below 1 it needs {needed}"
+    raise InputError(f"{said}: choose {', '.join(names)}")
 
 
 # The groups, in the order of every model's arguments, and their checks.
@@ -277,8 +384,8 @@ def number(
     name: str,
     value: ArrayLike,
     allowed: str,
-    low: float = -math.inf,
-    high: float = math.inf,
+    low: float = -LARGEST,
+    high: float = LARGEST,
     open_low: bool = False,
 ) -> float:
     """Check one number as `checked` does arrays.
@@ -327,7 +434,7 @@ fewer explicit steps the tangential oscillation is unstable)
     """
     steps = count("steps", steps, 3)
     fewest = float(np.max(needed, initial=3))
-    if not fewest <= MOST:
+    if fewest > MOST:
         raise InputError(
             f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
             f"are needed, or the tangential oscillation is unstable; allowed are up to {MOST}"

@@ -157,7 +157,7 @@ class Event(NamedTuple):
     kind: EventKind
     time: float
     normal: float
-    friction: float
+    friction_force: float
     velocity: float
     spring: float
 
@@ -171,20 +171,21 @@ class History(NamedTuple):
         t/t_c, from 0 to 1 + e, with viscous loss to 2; t_c is the time of compression.
     normal : ndarray, shape (n,)
         Normal force F2 in m2 Omega |v2(0)|.
-    friction : ndarray, shape (n,)
+    friction_force : ndarray, shape (n,)
         Tangential force F1 in mu m2 Omega |v2(0)|; positive opposes a positive incidence.
     velocity : ndarray, shape (n,)
         w = v1/(mu v2(0)).
     spring : ndarray, shape (n,)
-        Deflection of the tangential element in mu |v2(0)|/Omega: zeta^2 friction, with the
-        unloading stiffness e^2 zeta^2 friction, with viscous loss what the dashpot leaves of it.
+        Deflection of the tangential element in mu |v2(0)|/Omega: zeta^2 friction_force, with the
+        unloading stiffness e^2 zeta^2 friction_force, with viscous loss what the dashpot leaves of
+        it.
     events : tuple of Event
         In order of time, from contact to separation; STICK and SLIP mark where a phase starts.
     """
 
     time: Array
     normal: Array
-    friction: Array
+    friction_force: Array
     velocity: Array
     spring: Array
     events: tuple[Event, ...]

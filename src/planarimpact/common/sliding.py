@@ -33,7 +33,7 @@ x > beta + e (beta - zeta^2) (at v = -e).
 
 import numpy as np
 
-from planarimpact.common.arrays import SMALLEST, Array, Number, Numbers
+from planarimpact.common.arrays import Array, Number, Numbers
 
 
 def change(beta: Number, e: float | Number) -> Number:
@@ -92,7 +92,7 @@ def restick_coefficient(beta: Array, zeta2: Array, e: Numbers) -> Array:
     [0.25, 0.0]
     """
     excess = np.maximum(e * (e * beta) - zeta2, 0.0)
-    return excess / np.maximum(e, SMALLEST)  # for e = 0 the excess is 0
+    return excess / np.where(np.greater(e, 0), e, 1.0)  # for e = 0 the excess is 0
 
 
 def limit(beta: Array, zeta2: Array, e: Numbers) -> Array:

@@ -15,17 +15,17 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common import checks, sliding
-from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.arrays import SMALLEST, Array, ArrayLike
+from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
 from planarimpact.common.results import Rebound
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.refinement import Unsolved as Unsolved
-from planarimpact.normal_impact import LOSSES as LOSSES
-from planarimpact.normal_impact import VISCOUS as VISCOUS
 from planarimpact.normal_impact import hertz
 
-# Below this restitution most contacts need more steps than are allowed.
-LEAST_RESTITUTION = 0.1
+# Names of the losses that spheres have.
+LOSSES = tuple(SPHERES)
+LEAST_RESTITUTION = max(VISCOUS.least_restitution, PLASTIC.least_restitution)
 # Default tolerances.
 ELASTIC_TOLERANCE, LOSSY_TOLERANCE = 1e-6, 1e-4
 
@@ -39,7 +39,7 @@ class ContinuumHistory(NamedTuple):
         t/t_c, from 0 to separation, 2 where e = 1; t_c is the time of compression.
     normal : ndarray, shape (n,)
         Normal force F2 over its largest value.
-    friction : ndarray, shape (n,)
+    friction_force : ndarray, shape (n,)
         Tangential force F1 over mu times the largest normal force; positive opposes a positive
         incidence.
     velocity : ndarray, shape (n,)
@@ -53,7 +53,7 @@ class ContinuumHistory(NamedTuple):
 
     time: Array
     normal: Array
-    friction: Array
+    friction_force: Array
     velocity: Array
     contact_radius: Array
     stick_radius: Array
@@ -82,9 +82,8 @@ def rebound(
     restitution : array_like
         1, the contact is elastic; or from 0.1, with a `loss`.
     loss : str, optional
-        What takes the energy where e < 1. "viscous": Kelvin-Voigt spheres with one relaxation time
-        in shear and compression. "plastic": Thornton's elastic-plastic sphere, in which shear flows
-        while metal yields.
+        What takes the energy where e < 1: "viscous", alike in shear and compression, or "plastic",
+        Thornton's sphere, in which shear flows while metal yields.
     tolerance : array_like, optional
         Largest error allowed in velocity (mu v2(0)) and peak friction (mu F2max of this impact), by
         the solver's own estimate; above 0. It broadcasts with the groups. By default 1e-6, with a
@@ -157,12 +156,13 @@ def rebound(
     signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if tolerance is None:
         tolerance = ELASTIC_TOLERANCE if loss is None else LOSSY_TOLERANCE
+    rule = "finite numbers above 0"  # of a tiny incidence it may be tiny too
     signed, beta, zeta2, e, allowed = checks.broadcast(
         incidence=signed,
         mass_ratio=beta,
         stiffness_ratio=zeta2,
         restitution=e,
-        tolerance=checks.positive("tolerance", tolerance),
+        tolerance=checks.checked("tolerance", tolerance, rule, SMALLEST),
     )
     kind = _kind_of_motion(restitution, loss)
     x, beta, zeta2, e, allowed = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, allowed))
@@ -303,7 +303,7 @@ def _kind_of_motion(restitution: ArrayLike, loss: str | None) -> type[NormalMoti
     if loss is None:
         checks.require_loss(restitution, LOSSES)
         return None
-    found = inelastic.MOTIONS[checks.loss(loss, tuple(inelastic.MOTIONS))]
+    found = inelastic.MOTIONS[SPHERES[checks.loss(loss, SPHERES)]]
     allowed = f"numbers from {LEAST_RESTITUTION} to 1, with a loss"
     checks.checked("restitution", restitution, allowed, LEAST_RESTITUTION, 1)
     return found

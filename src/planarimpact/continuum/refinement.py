@@ -49,8 +49,7 @@ def steps_needed(beta: Array, zeta2: Array, share_of_hertz: Array | float = 1.0)
     An elastic contact has sqrt(b)/2 oscillations, b = beta/zeta^2. One that yields is softer and
     lasts longer: b is divided by the share that its force has of Hertz's.
     """
-    with np.errstate(over="ignore"):
-        frequency = np.sqrt(beta) / (np.sqrt(zeta2) * np.sqrt(share_of_hertz))
+    frequency = np.sqrt(beta) / (np.sqrt(zeta2) * np.sqrt(share_of_hertz))
     return STEPS_A_RADIAN * np.pi * frequency
 
 

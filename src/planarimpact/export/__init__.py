@@ -28,7 +28,7 @@ from planarimpact.common import checks, files
 from planarimpact.common.arrays import Array, ArrayLike, Integers
 from planarimpact.common.checks import InputError
 from planarimpact.common.results import Regime
-from planarimpact.normal_impact import LEAST_RESTITUTION, LOSSES, kelvin_voigt
+from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt
 from planarimpact.spheres import table as tables
 from planarimpact.spheres.table import LEFT, ORDER, PACKED, RIGHT, ROOTS, Table
 
@@ -169,7 +169,7 @@ def _public(bounds: Mapping[str, float]) -> dict[str, float]:
     """Public constants: losses, range, errors and the codes of regimes."""
     return {
         # 0 is none of them, so that a loss which nobody states is not taken for one.
-        **{loss.upper(): code for code, loss in enumerate(LOSSES, 1)},
+        **{loss.upper(): code for code, loss in enumerate(spheres.LOSSES, 1)},
         "INCIDENCE_MAX": checks.LARGEST,
         "RESTITUTION_MIN": spheres.LEAST_RESTITUTION,
         "STIFFNESS_MAX": spheres.LARGEST_STIFFNESS,
@@ -261,6 +261,6 @@ def _preset(name: str, preset: Preset, prefix: str) -> dict[str, Any]:
     pair = {field: float(np.nan_to_num(getattr(preset.pair, field))) for field in PAIR}
     loss: str | int = 0
     if pair["restitution"]:
-        loss = prefix + ("PLASTIC" if preset.pair.plastic else "VISCOUS")
+        loss = f"{prefix}{preset.pair.loss}".upper()
     body = {field: float(getattr(preset.body, field)) for field in preset.body._fields}
     return {"text": "\n".join(map(_comment, words)), "name": name, "loss": loss} | body | pair

@@ -2,24 +2,16 @@
 
 A linear normal element (stiffness kappa, kappa/e^2 in restitution) and a linear tangential
 element (kappa/zeta^2) join the body to a massless particle that sticks to the surface or slips
-on it with Coulomb friction. `losses` defines each loss of energy. `stick_slip` contains the
-phases, `slip_onset` where slip starts, `normal` the normal motion, `extremes` what makes groups of
-any size possible.
+on it with Coulomb friction. `by_loss` has the solver of each loss of energy, `stick_slip` the
+phases in closed form, `slip_onset` where slip starts. Histories, and impacts with
+dashpots, are followed by `planarimpact.phases`.
 
-The keyword `loss` names what takes the normal energy where e < 1. At e = 1 all are the same model.
-
-- "hysteretic": the paper's element, of which only the normal direction loses energy.
-- "unloading-stiffness": as the paper's, but with the elastic normal stiffness in the ratio. The
-  elastic stiffness of the hysteretic element is the one of unloading, kappa/e^2, so the tangential
-  one is kappa/(e^2 zeta^2): e^2 zeta^2 takes the place of zeta^2.
-- "viscous": a dashpot beside the spring in both directions, with one relaxation time. `viscous`
-  holds it.
+The keyword `loss` names what takes the normal energy where e < 1, one of `LOSSES`: "hysteretic" is
+the paper's. `planarimpact.common.losses` says what each one is. At e = 1 all are the same model.
 
 All four functions take arguments of `rebound`, which says what they mean and their ranges:
-`incidence`, `mass_ratio`, `stiffness_ratio`, `restitution` and `loss`. `history` and
-`friction_work` are of one contact: they take scalars alone, and a contact of 100 000 phases at
-most. Where it sticks in compression, a history needs omega/Omega up to 1e9, for digits of friction:
-so e = 0 has none with "unloading-stiffness". An argument not allowed raises `InputError`.
+`incidence`, `mass_ratio`, `stiffness_ratio`, `restitution` and `loss`. `history` is of one contact:
+it takes scalars alone. An argument not allowed raises `InputError`.
 
 Errors that these functions state are those of the solution. The model itself is further off. For a
 solid sphere of Poisson's ratio 0.3 and e = 1 its velocity differs from the elastic continuum by up
@@ -32,10 +24,13 @@ import numpy as np
 
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.losses import LUMPED
 from planarimpact.common.results import History, Rebound
-from planarimpact.lumped.losses import LOSSES as LOSSES
-from planarimpact.lumped.losses import loss_of
+from planarimpact.lumped import by_loss
 from planarimpact.lumped.stick_slip import Impacts
+
+# Names of the losses that this model has.
+LOSSES = tuple(LUMPED)
 
 
 @checks.default_errors
@@ -52,17 +47,19 @@ def rebound(
     Parameters
     ----------
     incidence : array_like
-        x = v1(0)/(mu v2(0)), tangential over normal speed and friction. Any number to 8e307;
+        x = v1(0)/(mu v2(0)), tangential over normal speed and friction. Any number to 1e100;
         a negative one gives the mirror image.
     mass_ratio : array_like
-        beta = m2/m1 >= 1 (Eqs 1, 2); 3.5 for a solid sphere on a half-space.
+        beta = m2/m1, 1 to 1e12 (Eqs 1, 2); 3.5 for a solid sphere on a half-space.
     stiffness_ratio : array_like
-        zeta^2 > 0, normal over tangential stiffness; (2 - nu)/(2 (1 - nu)) for elastic spheres.
+        zeta^2, normal over tangential stiffness, to 1e12; (2 - nu)/(2 (1 - nu)) for elastic
+        spheres. At least 1e-8 beta: the frequency omega/Omega = (beta/zeta^2)^(1/2) is up to 1e4.
+        With the loss "unloading-stiffness" that holds for e^2 zeta^2, so that e = 0 has none. A
+        stiffer contact is one without tangential compliance, `planarimpact.rigid`.
     restitution : array_like
-        Energetic coefficient e, 0 to 1 (Eq. 5).
+        Energetic coefficient e, 0 or 1e-12 to 1 (Eq. 5).
     loss : str
-        "hysteretic" (the paper's), "unloading-stiffness" or "viscous": what takes the normal
-        energy.
+        What takes the normal energy, one of `LOSSES`.
 
     Returns
     -------
@@ -78,7 +75,7 @@ def rebound(
     InputError
         If an argument is not a finite real number in its range, or shapes do not broadcast. With
         viscous loss and e < 1 the range is smaller: restitution from 1e-3 (a viscous element does
-        not stop a body for good), mass ratio to 1e6, stiffness ratio from 1e-4 to 1e6 times the
+        not stop a body for good), mass ratio to 1e6, stiffness ratio from 0.01 to 1e6 times the
         mass ratio.
 
     Notes
@@ -86,13 +83,14 @@ def rebound(
     The errors of velocity, peak friction and dissipation, as a solution of the model, are at most a
     hundred times the effect of rounding the four arguments. This holds in every regime, and at the
     thresholds. The exception is a dissipation below 1e-16 of the energy, where T and N fall
-    together (zeta^2 next to beta, e = 1). The time does not depend on the number of phases, which
-    grows as omega/Omega: see `extremes.many_phases`. Stronge's printed equations differ in two
-    places: the limit of slip throughout (see `slip_throughout_limit`) and the direction of the last
-    slip, which at small e is the incident one.
+    together (zeta^2 next to beta, e = 1). The time grows with the number of phases, that is with
+    e omega/Omega. Stronge's printed equations differ in two places: the limit of slip throughout
+    (see `slip_throughout_limit`) and the direction of the last slip, which at small e is the
+    incident one.
 
     With viscous loss the errors are at most 1e-9: of the velocity relative to max(1, x, beta),
-    of the peak to 1, of the dissipation to x^2/(2 beta) or, if that is smaller, (1 + e) x.
+    of the peak to 1, of the dissipation to x^2/(2 beta) or, if that is smaller, (1 + e) x. The
+    dissipation of friction that is weaker than rounding of the normal force is known to 1e-15 x.
 
     Examples
     --------
@@ -102,13 +100,14 @@ def rebound(
     ['STICK_SLIP', 'SLIP_STICK_SLIP', 'SLIP_THROUGHOUT']
     >>> float(result.velocity[2])  # x - (1 + e) beta
     1.0
-    >>> [round(float(rebound(2.0, restitution=0.8, loss=loss).velocity), 6) for loss in LOSSES]
-    [-1.068366, -0.293096, -0.349825]
+    >>> for loss in ("hysteretic", "viscous"):
+    ...     print(round(float(rebound(2.0, restitution=0.8, loss=loss).velocity), 6))
+    -1.068366
+    -0.349825
     """
-    chosen = loss_of(loss)
+    chosen = LUMPED[checks.loss(loss, LUMPED)]
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    size, *groups = np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups)
-    return Rebound.shaped(x, *chosen.solve(Impacts(size, *groups)))
+    return Rebound.shaped(x, *by_loss.solve(chosen, _flat(x, *groups)))
 
 
 @checks.default_errors
@@ -125,14 +124,11 @@ def slip_throughout_limit(
     it. The paper prints (1 + e) beta (heading of Eq. 26), but by its own conditions for the end of
     the first slip, Eqs 17 to 20, that slip does not end above the value given here.
 
-    With the loss "unloading-stiffness" e^2 zeta^2 stands for zeta^2, which gives
-    max(e^2 zeta^2, beta + e max(0, beta - zeta^2)). With viscous loss it is
-    max(zeta^2, beta + e (beta - zeta^2)). The two are the same for zeta^2 <= beta. For a softer
-    tangential element, viscous contact starts in stick up to zeta^2, and the other up to
-    e^2 zeta^2 only; from beta on that slip lasts.
+    The stiffness ratio of the loss stands for zeta^2: e^2 zeta^2 with "unloading-stiffness". With
+    dashpots it is max(zeta^2, beta + e (beta - zeta^2)).
 
-    Arguments and errors: `planarimpact.lumped`. With viscous loss the ratios may have any size
-    here, and the limit at e = 0 is that of small e.
+    Arguments and errors: `planarimpact.lumped`. Here omega/Omega has no limit, and with viscous
+    loss the ratios and the restitution have none of their own.
 
     Returns
     -------
@@ -143,12 +139,12 @@ def slip_throughout_limit(
     --------
     >>> float(slip_throughout_limit(3.5, 1.21, 1.0))
     5.79
-    >>> [float(slip_throughout_limit(3.5, 5.0, 0.5, loss=loss)) for loss in LOSSES]
-    [5.0, 3.5, 5.0]
+    >>> float(slip_throughout_limit(3.5, 5.0, 0.5, loss="unloading-stiffness"))
+    3.5
     """
-    chosen = loss_of(loss)
+    chosen = LUMPED[checks.loss(loss, LUMPED)]
     _, *groups = checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)
-    return chosen.slides_from(*groups)[()]
+    return by_loss.slides_from(chosen, *groups)[()]
 
 
 @checks.default_errors
@@ -170,8 +166,9 @@ def history(
     Returns
     -------
     History
-        time in t_c, normal, friction, velocity, spring, events. With viscous loss t_c is half of
-        the contact, and both forces jump at contact, as the dashpots act at once.
+        time in t_c, normal, friction_force, velocity, spring, events; with omega/Omega up to 1e3 to
+        1e-13 of the largest force and of max(1, x, beta), beyond that to 1e-12. With viscous loss
+        t_c is half of the contact, and both forces jump at contact, as the dashpots act at once.
 
     Examples
     --------
@@ -182,29 +179,32 @@ def history(
     1.5
     """
     samples = checks.count("samples", samples, 2)
-    chosen = loss_of(loss)
-    mirror, impact = _one_impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    return chosen.history(mirror, impact, samples)
+    chosen = LUMPED[checks.loss(loss, LUMPED)]
+    x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    if x.ndim:
+        raise checks.InputError(f"shape = {x.shape}: one contact takes scalars")
+    return by_loss.history(chosen, float(np.copysign(1.0, x)), _flat(x, *groups), samples)
 
 
 @checks.default_errors
 def friction_work(
-    incidence: float,
-    mass_ratio: float = 3.5,
-    stiffness_ratio: float = 1.21,
-    restitution: float = 1.0,
+    incidence: ArrayLike,
+    mass_ratio: ArrayLike = 3.5,
+    stiffness_ratio: ArrayLike = 1.21,
+    restitution: ArrayLike = 1.0,
     *,
     loss: str = "hysteretic",
-) -> float:
+) -> Array:
     """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
 
-    This checks `rebound(...).dissipation`, which comes from the balance of energy. The two differ
-    by what the tangential spring loses when e = 0. With viscous loss and e < 1 both are the same
-    closed integral. Arguments and errors: `planarimpact.lumped`.
+    This checks `rebound(...).dissipation`, which comes from the balance of energy: the contacts are
+    followed by `planarimpact.phases`. The two differ by what the tangential spring loses when
+    e = 0. With viscous loss and e < 1 both are the same integral. Arguments and errors:
+    `planarimpact.lumped`.
 
     Returns
     -------
-    float
+    ndarray of float64 or float
         In mu^2 m2 v2(0)^2.
 
     Examples
@@ -213,17 +213,11 @@ def friction_work(
     >>> bool(abs(friction_work(2.0) - balance) < 1e-14)
     True
     """
-    chosen = loss_of(loss)
-    _, impact = _one_impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    return chosen.friction_work(impact)
-
-
-def _one_impact(
-    incidence: float, mass_ratio: float, stiffness_ratio: float, restitution: float
-) -> tuple[float, Impacts]:
-    """Sign of the incidence, and one impact with its size."""
+    chosen = LUMPED[checks.loss(loss, LUMPED)]
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    if x.ndim:
-        raise checks.InputError(f"shape = {x.shape}: one contact takes scalars")
-    impact = Impacts(np.abs(x).reshape(1), *(group.reshape(1) for group in groups))
-    return float(np.copysign(1.0, x)), impact
+    return by_loss.friction_work(chosen, _flat(x, *groups)).reshape(x.shape)[()]
+
+
+def _flat(x: Array, *groups: Array) -> Impacts:
+    """Impacts by the size of their incidence, flat."""
+    return Impacts(np.abs(x).reshape(-1), *(group.reshape(-1) for group in groups))

@@ -1,9 +1,9 @@
 """Where slip starts: the first instant of stick at which friction |T| reaches its limit.
 
 The limit is Coulomb's: the normal force N, as friction is in units of mu.
-T = A sin(theta) and N = sin(eta), with the angle `eta` of `normal`. A prime is the derivative with
-respect to the time, counted as `eta`: eta' = 1 in compression and -1 in restitution, where `eta`
-falls to 0; theta' = rate. A half-wave of T lies between two zeros of T.
+T = A sin(theta) and N = sin(eta), with the angle `eta` of `stick_slip`. A prime is the derivative
+with respect to the time, counted as `eta`: eta' = 1 in compression and -1 in restitution, where
+`eta` falls to 0; theta' = rate. A half-wave of T lies between two zeros of T.
 
 The root is searched only where it is alone:
 
@@ -30,8 +30,6 @@ FREE_STEPS = 3
 # Above this rate the onset is close to the crest of |T|: a second zero lies just behind the crest.
 # The search then starts from the crest, the end of the bracket.
 HIGH_RATE = 10.0
-# Above this phase of an oscillation rounding hides the place within its period.
-LARGEST_PHASE = 1e15
 
 
 def in_restitution(
@@ -49,7 +47,6 @@ def in_restitution(
     and the number of that half-wave, in which T has the sign of sin(theta) = (-1)^wave.
     """
     # No slip starts while N exceeds the largest |T|: go on at once to where N has fallen to it.
-    rate = np.maximum(rate, np.finfo(float).tiny)
     fast = rate > 1
     highest = amplitude
     slow = np.flatnonzero(~fast)
@@ -59,9 +56,6 @@ def in_restitution(
         highest[slow] *= np.sin(np.minimum(end, HALF_PI))
     reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))
     theta_reached = theta + rate * (eta - reached)
-    if theta_reached.max() > LARGEST_PHASE:  # the place within the period is not known
-        unresolved = theta_reached > LARGEST_PHASE
-        theta_reached = np.where(unresolved, 2 * np.pi + theta_reached % (2 * np.pi), theta_reached)
     # For rate > 1 the half-wave of the onset is the present one or the next. It is the next where
     # |T|/N is past its maximum (`passed`): in the first half-wave always, later where it falls.
     present = np.floor(theta_reached / np.pi)

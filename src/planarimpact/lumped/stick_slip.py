@@ -5,10 +5,13 @@ and normal force, with friction T in mu times that; omega^2 = beta/zeta^2:
 
     w' = -beta T,   T = s/zeta^2,   stick: s' = w while |T| <= N,   slip: T = side N.
 
+Both halves of the contact have one angle `eta` from 0 to pi/2, which vanishes with the force
+(Table 1). In compression eta = Omega t grows from 0; in restitution eta = Omega (tf - t)/e falls to
+0. So N = sin(eta) in both, and no digits are lost near separation, where both forces vanish.
+
 In stick T = A sin(theta) and w = sqrt(beta zeta^2) A cos(theta): a phase is its amplitude A and
-its angle. The angle `eta` of `normal` stands for the time; by it theta has the rate omega in
-compression and e omega in restitution. Slip ends in closed form; `slip_onset` searches where it
-starts.
+its angle theta, which has by eta the rate omega in compression and e omega in restitution. Slip
+ends in closed form; `slip_onset` searches where it starts.
 
 Errors do not grow: any two solutions approach each other in the tangential energy
 w^2/(2 beta) + zeta^2 T^2/2, and an event misplaced by epsilon moves the result by the order of
@@ -27,16 +30,10 @@ import numpy as np
 
 from planarimpact.common import sliding
 from planarimpact.common.angles import HALF_PI, sin_cos
-from planarimpact.common.arrays import Array, Integers, Numbers
-from planarimpact.common.checks import ConvergenceError, InputError
+from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.checks import ConvergenceError
 from planarimpact.common.results import Regime
-from planarimpact.lumped import normal, slip_onset
-from planarimpact.lumped.extremes import many_phases
-
-# An impact that still alternates after this many sticks may skip most others by `many_phases`.
-STICKS_BEFORE_SKIP = 16
-# A trace of more phases would take minutes.
-MOST_TRACED = 100_000
+from planarimpact.lumped import slip_onset
 
 
 class Impacts(NamedTuple):
@@ -74,24 +71,8 @@ class Stick(NamedTuple):
     side: Array
 
 
-class Phase(NamedTuple):
-    """Start of a phase of stick or slip within one half of the contact.
-
-    `side` is the direction of slip, or the sign of T for sin(theta) > 0 in stick; `velocity`
-    holds in slip, `amplitude` and `theta` in stick.
-    """
-
-    sticks: bool
-    in_restitution: bool
-    eta: Numbers
-    side: Numbers
-    velocity: Numbers = 0.0
-    amplitude: Numbers = 0.0
-    theta: Numbers = 0.0
-
-
-def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
-    """Outcome of impacts; a `trace`, for a single impact only, gets its phases in order."""
+def solve(impacts: Impacts) -> Outcome:
+    """Outcome of impacts."""
     x, beta, zeta2, e = impacts
     outcome = Outcome(
         sliding.velocity(x, beta, e),
@@ -104,31 +85,15 @@ def solve(impacts: Impacts, trace: list[Phase] | None = None) -> Outcome:
     initial = np.flatnonzero(ever_sticks & ~slips_first)
     early = np.flatnonzero(ever_sticks & slips_first & (x <= beta))
     late = np.flatnonzero(ever_sticks & slips_first & (x > beta))
-    if trace is not None and not initial.size:
-        trace.append(Phase(False, False, 0.0, 1.0, x))
-        trace += [] if early.size else [Phase(False, True, HALF_PI, 1.0, x - beta)]
     starts = (initial, _initial_stick), (early, _after_early_slip), (late, _after_late_slip)
-    sticks = [start(which, impacts, outcome, trace) for which, start in starts if which.size]
+    sticks = [start(which, impacts, outcome) for which, start in starts if which.size]
     if sticks:
         stick = Stick(*(np.concatenate(fields) for fields in zip(*sticks, strict=True)))
-        _alternate(stick, impacts, outcome, trace)
+        _alternate(stick, impacts, outcome)
     # Rounding must not create energy.
     np.minimum(np.maximum(outcome.velocity, -x), x, out=outcome.velocity)
     np.maximum(outcome.dissipation, 0.0, out=outcome.dissipation)
     return outcome
-
-
-def state(phase: Phase, eta: Array, beta: float, zeta2: float, e: float) -> tuple[Array, Array]:
-    """Friction and velocity of one phase at angles `eta` of its half."""
-    if phase.sticks:
-        omega = np.sqrt(beta / zeta2)
-        rate = omega * (e if phase.in_restitution else 1.0)
-        sine, cosine = sin_cos(phase.theta + rate * np.abs(eta - phase.eta))
-        force = phase.side * phase.amplitude
-        return force * sine, omega * zeta2 * force * cosine
-    passed = np.abs(normal.impulse(eta) - normal.impulse(phase.eta))
-    share = e if phase.in_restitution else 1.0
-    return phase.side * normal.force(eta), phase.velocity - phase.side * beta * share * passed
 
 
 def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array]:
@@ -137,15 +102,12 @@ def _tangent(slope: Array, gap: Array, rate: Array) -> tuple[Array, Array, Array
     `gap` is 1 - |slope|, which the caller computes without cancellation.
     """
     square = gap * (1 + np.abs(slope))  # 1 - slope^2
-    # Rate > 1, so no square overflows, nor do both underflow. NumPy's hypot is ten times slower.
     force, share = np.sqrt(square), slope / rate
-    amplitude = np.sqrt(square + share * share)
+    amplitude = np.sqrt(square + share * share)  # NumPy's hypot is ten times slower
     return amplitude, np.arctan2(rate * force, slope), np.arctan2(force, np.abs(slope))
 
 
-def _initial_stick(
-    which: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
-) -> Stick:
+def _initial_stick(which: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
     """Stick from the start, with no force and T' = x/zeta^2, up to maximum compression.
 
     Contacts that end there, or slip before and to the end, get their outcome. The others are
@@ -156,21 +118,17 @@ def _initial_stick(
     amplitude, theta = x / zeta2 / omega, omega * HALF_PI
     outcome.dissipation[which] = 0.0
     outcome.regime[which] = Regime.STICK_SLIP
-    if trace is not None:
-        trace.append(Phase(True, False, 0.0, 1.0, 0.0, amplitude, 0.0))
     broken = np.flatnonzero((omega < 1) & (amplitude > 1))
     broken = broken[slip_onset.breaks_in_compression(amplitude[broken], theta[broken])]
     if broken.size:
-        _break_in_compression(which[broken], impacts.take(broken), outcome, trace)
+        _break_in_compression(which[broken], impacts.take(broken), outcome)
         goes_on = np.delete(np.arange(which.size), broken)
         which, impacts = which[goes_on], impacts.take(goes_on)
         amplitude, theta = amplitude[goes_on], theta[goes_on]
-    return _at_compression(which, impacts, amplitude, theta, outcome, trace)
+    return _at_compression(which, impacts, amplitude, theta, outcome)
 
 
-def _after_early_slip(
-    which: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
-) -> Stick:
+def _after_early_slip(which: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
     """As `_initial_stick`, for stick after a first slip that ended in compression."""
     x, beta, zeta2, _ = impacts = impacts.take(which)
     omega = np.sqrt(beta / zeta2)
@@ -181,10 +139,8 @@ def _after_early_slip(
     # The first slip has the normal impulse `gap`; its velocity falls from x - zeta^2 to 0.
     outcome.dissipation[which] = gap * gap * coefficient / 2
     outcome.regime[which] = Regime.SLIP_STICK_SLIP
-    if trace is not None:
-        trace.append(Phase(True, False, eta, 1.0, 0.0, amplitude, theta))
     theta = theta + omega * (HALF_PI - eta)
-    return _at_compression(which, impacts, amplitude, theta, outcome, trace)
+    return _at_compression(which, impacts, amplitude, theta, outcome)
 
 
 def _at_compression(
@@ -193,7 +149,6 @@ def _at_compression(
     amplitude: Array,
     theta: Array,
     outcome: Outcome,
-    trace: list[Phase] | None,
 ) -> Stick:
     """Stick at maximum compression; contacts that end there, or have x = 0, get their outcome.
 
@@ -203,8 +158,6 @@ def _at_compression(
     last = (e == 0) | (x == 0)
     if last.any():
         ends, goes_on = np.flatnonzero(last), np.flatnonzero(~last)
-        if trace is not None:
-            trace.append(Phase(True, True, HALF_PI, 1.0, 0.0, amplitude, theta))
         sine, cosine = sin_cos(theta[ends])
         ending, largest, ratio = which[ends], amplitude[ends], zeta2[ends]
         friction = largest * sine
@@ -218,15 +171,13 @@ def _at_compression(
     return Stick(which, np.full_like(theta, HALF_PI), theta, amplitude, np.ones_like(theta))
 
 
-def _break_in_compression(
-    which: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
-) -> None:
+def _break_in_compression(which: Integers, impacts: Impacts, outcome: Outcome) -> None:
     """Initial stick that breaks before maximum compression (omega < Omega) slips to the end."""
     x, beta, zeta2, e = impacts
     omega = np.sqrt(beta / zeta2)
     eta = slip_onset.in_compression(x, zeta2, omega)
     w_onset = x * np.cos(omega * eta)
-    passed = normal.impulse(eta)
+    passed = 2 * np.sin(eta / 2) ** 2  # the normal impulse until then
     w_compressed = w_onset - beta * (1 - passed)
     w_final = w_onset - beta * (1 + e - passed)
     # Twice the work: normal impulse times both slip velocities at its ends. In compression the
@@ -238,14 +189,9 @@ def _break_in_compression(
     outcome.peak_friction[which] = 1.0
     outcome.dissipation[which] = work / 2
     outcome.regime[which] = Regime.STICK_SLIP
-    if trace is not None:
-        trace.append(Phase(False, False, eta, 1.0, w_onset))
-        trace.append(Phase(False, True, HALF_PI, 1.0, w_compressed))
 
 
-def _after_late_slip(
-    which: Integers, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None
-) -> Stick:
+def _after_late_slip(which: Integers, impacts: Impacts, outcome: Outcome) -> Stick:
     """Stick after a first slip that ended in restitution, at cos(eta) = (x - beta)/K."""
     x, beta, zeta2, e = impacts.take(which)
     coefficient = sliding.restick_coefficient(beta, zeta2, e)
@@ -259,7 +205,7 @@ def _after_late_slip(
     return Stick(which, eta, theta, amplitude, np.ones_like(eta))
 
 
-def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
+def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome) -> None:
     """Slip and stick in turn until every impact slides to separation; adds to the outcome.
 
     Each turn of the loop takes a stick to its end, and the slip after it. Impacts whose slip lasts
@@ -268,8 +214,6 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
     """
     count = 0
     while stick.which.size:
-        if count == STICKS_BEFORE_SKIP:
-            _skip(stick, impacts, outcome, trace)
         which, amplitude = stick.which, stick.amplitude
         beta, zeta2, e = (field[which] for field in impacts[1:])
         omega = np.sqrt(beta / zeta2)
@@ -283,12 +227,12 @@ def _alternate(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Pha
         eta, rho, wave = slip_onset.in_restitution(stick.eta, stick.theta, amplitude, rate)
         side = stick.side * (1 - 2 * (wave - 2 * np.floor(wave / 2)))
         w_onset = omega * zeta2 * amplitude * sin_cos(rho)[1]
-        force, ahead = normal.force_and_impulse(eta)
+        # N, and the normal impulse to come over e: from one tangent, the cheapest function.
+        tangent = np.tan(eta / 2)
+        force = 2 * tangent / (1 + tangent * tangent)
+        ahead = tangent * force
         w_final = w_onset - beta * e * ahead
         outcome.velocity[which] = side * w_final
-        if trace is not None:
-            trace.append(Phase(True, True, stick.eta, stick.side, 0.0, amplitude, stick.theta))
-            trace.append(Phase(False, True, eta, side, side * w_onset))
         if count == 0:  # N falls: no later stick or slip has more friction
             rising = (wave == 0) & (rho < HALF_PI)
             crest = np.where(rising, force, amplitude)
@@ -317,35 +261,7 @@ def _most_sticks(rate: Array) -> int:
     """A number of sticks in restitution that no impact reaches: the loop must end.
 
     In restitution the phase of T grows by rate pi/2, that is rate/2 half-waves. A stick and its
-    slip together take about one (`many_phases` says how nearly). With a part of one at both ends
-    there are some rate/2 + 2 sticks. The bound need not be sharp: it is about twice as large.
+    slip together take about one. With a part of one at both ends there are some rate/2 + 2 sticks.
+    The bound need not be sharp: it is about twice as large.
     """
     return int(rate.max()) + 3
-
-
-def _skip(stick: Stick, impacts: Impacts, outcome: Outcome, trace: list[Phase] | None) -> None:
-    """Move sticks that have far to go close to separation; adds the work of slip on the way.
-
-    `many_phases` gives the angle at which a later stick starts, and how many half-waves lie
-    between. The work is the tangential energy that is lost between the two starts of stick.
-    """
-    beta, zeta2, e = (field[stick.which] for field in impacts[1:])
-    rate = e * np.sqrt(beta / zeta2)
-    far = np.flatnonzero(many_phases.worth_skipping(stick.eta, rate))
-    if not far.size:
-        return
-    if trace is not None:
-        phases = 2 * rate[0] * stick.eta[0] / np.pi
-        if phases > MOST_TRACED:
-            raise InputError(
-                f"stiffness_ratio = {float(zeta2[0])}: some {phases:.2g} phases in one contact; "
-                f"allowed are {MOST_TRACED} where each one is asked for"
-            )
-        return
-    rate, zeta2 = rate[far], zeta2[far]
-    eta, half_waves = many_phases.skip(stick.eta[far], rate)
-    amplitude, theta, eta = _tangent(-np.cos(eta), normal.impulse(eta), rate)
-    energy_lost = zeta2 * (stick.amplitude[far] ** 2 - amplitude**2) / 2
-    outcome.dissipation[stick.which[far]] += energy_lost
-    stick.eta[far], stick.theta[far], stick.amplitude[far] = eta, theta, amplitude
-    stick.side[far] *= np.where(half_waves % 2 == 0, 1.0, -1.0)

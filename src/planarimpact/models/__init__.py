@@ -23,6 +23,7 @@ import numpy as np
 from planarimpact import continuum, lumped, rigid, spheres
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.losses import LOSSES, LUMPED, SPHERES, Loss
 from planarimpact.common.results import Rebound
 from planarimpact.models import laws, timestep
 
@@ -94,11 +95,11 @@ def rebound(
     --------
     >>> float(rebound("rigid", 8.0).velocity)
     1.0
-    >>> rebound("lumped", 2.0, restitution=0.8)
+    >>> rebound("lumped", 2.0, restitution=0.8)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
     planarimpact.InputError: restitution = 0.8: below 1 it needs a model with a loss: choose \
-lumped.hysteretic (the paper's), lumped.unloading-stiffness, lumped.viscous
+lumped.hysteretic (the paper's), ...
     """
     chosen = get(model)
     refuse_unknown(chosen, settings)
@@ -260,19 +261,6 @@ def _refuse_other_convention(model: Model, restitution: float) -> None:
         )
 
 
-def losses(model: str) -> dict[str, str]:
-    """Names of the models that are a model with a loss, by that loss.
-
-    Arguments and errors: `planarimpact.models`.
-
-    Examples
-    --------
-    >>> losses("continuum")
-    {'viscous': 'continuum.viscous', 'plastic': 'continuum.plastic'}
-    """
-    return {other.loss: name for name, other in MODELS.items() if name == f"{model}.{other.loss}"}
-
-
 def _elastic(
     name: str,
     solve: Callable[..., Rebound],
@@ -286,7 +274,8 @@ def _elastic(
     """Solve with the loss left out, for e = 1 alone; a refusal names the models with a loss."""
     groups = incidence, mass_ratio, stiffness_ratio, restitution
     checks.impact(*groups)
-    checks.require_loss(restitution, losses(name).values(), "a model with a loss")
+    lossy = [f"{name}.{loss.name}" for loss in LOSSES if loss.model == name]
+    checks.require_loss(restitution, lossy, "a model with a loss")
     return solve(*groups, **settings)
 
 
@@ -302,28 +291,36 @@ def _stepped(name: str, law: timestep.Law, valid: str, source: str) -> Model:
     )
 
 
-def _lossy_continuum(loss: str, valid: str, source: str) -> Model:
-    settings = {"tolerance": continuum.LOSSY_TOLERANCE}
-    solve = partial(continuum.rebound, loss=loss, **settings)
-    restitution = continuum.LEAST_RESTITUTION, 1.0
-    cost = "steps and springs"
-    return Model(f"continuum.{loss}", solve, settings, cost, restitution, valid, source, loss)
-
-
-def _tabled_continuum(loss: str) -> Model:
+def _lossy(
+    solve: Callable[..., Rebound], cost: str, settings: dict[str, float], loss: Loss
+) -> Model:
     return Model(
-        f"spheres.{loss}",
-        partial(spheres.rebound, loss=loss),
+        f"{loss.model}.{loss.name}",
+        partial(solve, loss=loss.name, **settings),
+        settings,
+        cost,
+        (loss.least_restitution, 1.0),
+        loss.valid,
+        loss.source,
+        loss.name,
+    )
+
+
+def _tabled_continuum(loss: Loss) -> Model:
+    return Model(
+        f"spheres.{loss.name}",
+        partial(spheres.rebound, loss=loss.name),
         cost="table",
         restitution=(spheres.LEAST_RESTITUTION, 1.0),
-        valid=f"continuum.{loss} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, and "
+        valid=f"continuum.{loss.name} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, and "
         f"m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
         source="solved by this package, planarimpact.continuum",
-        loss=loss,
+        loss=loss.name,
     )
 
 
 _ELASTIC = (1.0, 1.0)
+_LOSSY_TOLERANCE = {"tolerance": continuum.LOSSY_TOLERANCE}
 _STEPPED = "fixed time step, as discrete-element codes have it"
 _IMPULSES = "impulses alone: no forces, no order of stick and slip"
 
@@ -362,33 +359,7 @@ MODELS = {
             "e = 1 only",
             source="Stronge 1994",
         ),
-        Model(
-            "lumped.hysteretic",
-            partial(lumped.rebound, loss="hysteretic"),
-            cost="phases",
-            valid="the paper's model: as lumped, the normal spring alone loses energy; to rounding",
-            source="Stronge 1994",
-            loss="hysteretic",
-        ),
-        Model(
-            "lumped.unloading-stiffness",
-            partial(lumped.rebound, loss="unloading-stiffness"),
-            cost="phases",
-            valid="as lumped, with e^2 zeta^2 for zeta^2: both stiffnesses elastic; solved to "
-            "rounding",
-            source="Stronge 1994, with the elastic stiffness of unloading in the ratio",
-            loss="unloading-stiffness",
-        ),
-        Model(
-            "lumped.viscous",
-            partial(lumped.rebound, loss="viscous"),
-            cost="phases",
-            restitution=(lumped.viscous.LEAST_RESTITUTION, 1.0),
-            valid="two Kelvin-Voigt elements of one relaxation time; solved to 1e-9",
-            source="T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469, for the normal "
-            "element",
-            loss="viscous",
-        ),
+        *(_lossy(lumped.rebound, "phases", {}, loss) for loss in LUMPED.values()),
         _stepped(
             "linear",
             timestep.LINEAR,
@@ -417,18 +388,11 @@ MODELS = {
             "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of Dimensionality "
             "Reduction in Contact Mechanics and Friction, Springer 2015",
         ),
-        _lossy_continuum(
-            "viscous",
-            "Kelvin-Voigt spheres with micro-slip, to a tolerance; one relaxation time",
-            "V. L. Popov, E. Willert, M. Hess, Facta Univ. Mech. Eng. 16 (2018) 141-156; G. "
-            "Kuwabara, K. Kono, Jpn. J. Appl. Phys. 26 (1987) 1230-1233",
+        *(
+            _lossy(continuum.rebound, "steps and springs", _LOSSY_TOLERANCE, loss)
+            for loss in SPHERES.values()
         ),
-        _lossy_continuum(
-            "plastic",
-            "elastic-plastic spheres with micro-slip, to a tolerance; contained yielding",
-            "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
-        ),
-        *map(_tabled_continuum, continuum.LOSSES),
+        *map(_tabled_continuum, SPHERES.values()),
     )
 }
 
@@ -446,7 +410,7 @@ def reference(restitution: float, loss: str | None = None) -> str:
     ('continuum', 'continuum.viscous', 'continuum.plastic')
     """
     if loss is None:
-        checks.require_loss(restitution, continuum.LOSSES)
+        checks.require_loss(restitution, SPHERES)
         return "continuum"
-    checks.loss(loss, continuum.LOSSES)
+    checks.loss(loss, SPHERES)
     return "continuum" if np.all(checks.restitution(restitution) == 1) else f"continuum.{loss}"

@@ -76,9 +76,9 @@ STEPS = 64
 CHUNK = 16384
 # Explicit steps are stable while the phase of an oscillation grows by no more than this [rad].
 STABLE_ANGLE = 2.0
-# Velocity over zeta^2 is clipped to these bounds. Below, the contact sticks to its last step and
-# the answer is proportional to x. Above, it slides throughout.
-LEAST, LARGEST = 1e-100, 1e300
+# Least velocity over zeta^2 that is solved. Below, the contact sticks to its last step and the
+# answer is proportional to x.
+LEAST = 1e-100
 # Steps of `with_dashpots` in a contact that loses nothing. One that loses energy lasts longer, but
 # not so many times as long.
 DASHPOT_STEPS, LONGEST = 200, 20
@@ -148,9 +148,8 @@ def rebound(
     signed, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     beta, zeta2, e = (a.reshape(-1) for a in groups)
     _, stiffest, _ = _spring(law, 1.0)
-    with np.errstate(over="ignore"):
-        frequency = math.sqrt(stiffest) * (np.sqrt(beta) / np.sqrt(zeta2))
-        angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
+    frequency = math.sqrt(stiffest) * np.sqrt(beta / zeta2)
+    angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
     steps = checks.explicit_steps(steps, angle / STABLE_ANGLE)
     x = np.abs(signed).reshape(-1)
     velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
@@ -398,9 +397,8 @@ def _impacts(
     if (e == e[0]).all():
         e = e[:1]
     # Tangential velocity over zeta^2, half a step ahead.
-    with np.errstate(over="ignore"):
-        start = np.clip(x / zeta2, LEAST, LARGEST)
-        start_share = np.minimum(x / zeta2 / LEAST, 1.0)  # x over the incidence that is solved
+    start = np.maximum(x / zeta2, LEAST)
+    start_share = np.minimum(x / zeta2 / LEAST, 1.0)  # x over the incidence that is solved
     velocity = start.copy()
     highest, lowest = np.zeros((2, x.size))
     slips, starts_in_slip = np.zeros((2, x.size), bool)

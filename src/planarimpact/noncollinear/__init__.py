@@ -7,10 +7,8 @@ compression may end and begin again. And friction may press the body into the su
 the normal force slows it (jam), until the contact point sticks.
 
 `inverse_mass` makes the argument of `rebound` and `history` from a body, and `combined` from two.
-`rigid` solves the same impact without compliance. Files of the solver: `phases` has the closed
-forms of stick and slip, `stick_end` the search for the end of stick, `closed_contact` the limit
-e -> 0 of contacts without restitution, `solver` the order of the phases, `timeline` the history.
-Axes and signs: `configuration`.
+`rigid` solves the same impact without compliance. `planarimpact.phases` follows the contact:
+`off_centre` is its motion, `closed` the limit e -> 0. Axes and signs: `configuration`.
 
 Symbols: v1, v2 tangential and normal velocity of the contact point; mu friction, e restitution,
 kappa stiffness, zeta^2 stiffness ratio; 1/m1, c and 1/m2 the inverse mass; V = v1/v2, C = m2 c and
@@ -22,10 +20,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import lumped
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.common.checks import ConvergenceError, InputError, checked, finite, positive
+from planarimpact.common.checks import (
+    LARGEST_RATIO,
+    LEAST_RATIO,
+    ConvergenceError,
+    InputError,
+    finite,
+    positive,
+)
+from planarimpact.common.losses import NONCOLLINEAR
 from planarimpact.common.results import Regime
 from planarimpact.noncollinear import rigid
 from planarimpact.noncollinear.configuration import (
@@ -36,10 +41,11 @@ from planarimpact.noncollinear.configuration import (
     fields_of,
     inverse_mass,
     motion_after,
-    refuse_overflow,
 )
-from planarimpact.noncollinear.solver import Impacts, Phase, solve
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
+from planarimpact.phases import Step
+from planarimpact.phases.closed import solve
+from planarimpact.phases.off_centre import OffCentre, Q, Y
 
 __all__ = [
     "InverseMass",
@@ -55,8 +61,10 @@ __all__ = [
     "rigid",
 ]
 
-# Largest group: its products with others are within float64, and no real body has a larger one.
-LARGEST = 1e50
+# Least restitution but 0 where friction can hold a contact closed.
+LEAST_RESTITUTION = 1e-3
+# What `OffCentre` takes, as messages name it.
+GROUPS = "tangential", "mass_ratio", "coupling", "stiffness_ratio", "friction", "restitution"
 
 
 class NoncollinearRebound(NamedTuple):
@@ -130,12 +138,10 @@ def rebound(
     stiffness : array_like
         kappa [N/m] of the normal element; it scales forces and duration, nothing else.
     loss : str, optional
-        What takes the energy; needed where e < 1.
-        "hysteretic", the paper's: the tangential stiffness is kappa/zeta^2.
-        "unloading-stiffness": it is kappa/(e^2 zeta^2), as zeta^2 is a ratio of elastic stiffnesses
-        and the elastic one of the normal element is that of unloading, kappa/e^2; e above 0. There
-        is no viscous loss here: a normal dashpot would pull at the end of contact, and a coupled
-        contact that separates and closes again under such a force is not solved.
+        What takes the energy, as in `planarimpact.lumped`; needed where e < 1. With
+        "unloading-stiffness" e is above 0. There is no loss with dashpots: a normal one would pull
+        at the end of contact, and a coupled contact that separates and closes again under such a
+        force is not solved.
 
     Returns
     -------
@@ -144,8 +150,10 @@ def rebound(
     Raises
     ------
     InputError
-        If an argument is not a finite real number in its range, if shapes do not broadcast, if
-        a ratio of velocities or masses, zeta^2 or mu is beyond 1e50, or a result beyond float64.
+        If an argument is not a finite real number in its range, if shapes do not broadcast, or if
+        they are out of reach of the solver: mu above 1e12; frequencies omega/Omega =
+        sqrt(m2/(m1 zeta^2)) above 1e4; with mu |c| m2 > 1, where friction can hold the contact
+        closed, a restitution below 1e-3 that is not 0: N rattles some 1/e times.
     ConvergenceError
         If the arguments are scalars and the solver gives up, as below.
 
@@ -154,17 +162,15 @@ def rebound(
     RuntimeWarning
         If the solver gives up some impacts of an array: their numbers are NaN, the others are
         solved. The warning names the flat indices; they are `numpy.isnan(result.tangential)`. The
-        solver gives up after 5 000 phases of stick and slip, or as many steps in one of them. This
-        happens where the tangential spring is very stiff, where c^2 m1 m2 is within about 1e-7 of
-        1, and where friction holds the contact closed (mu |c| m2 > 1) while the normal force
-        oscillates with a small e that is not 0. Many phases take long: a thousand random impacts
-        less than a second at e = 0.5, and up to a minute at e = 1e-4.
+        solver gives up after 40 000 steps. A contact needs some 15 000, which take seconds, where
+        omega/Omega is 1e4 or c^2 m1 m2 is 1e-7 from 1, and 8 000 where friction holds it closed
+        with e = 1e-3. Nearer to 1 some are given up.
 
     Notes
     -----
-    Each phase has a closed form. Impulses are sums over the phases, and keep |p1| <= mu p2 to 1e-11
-    however near c^2 m1 m2 is to 1. Times the mean of the velocities before and after they are the
-    energy that is lost, to 1e-12 of the kinetic energy. With c = 0 it is
+    Each step is a Taylor series, to rounding. Impulses are sums over the phases, and keep
+    |p1| <= mu p2 to 1e-11 however near c^2 m1 m2 is to 1. Times the mean of the velocities before
+    and after they are the energy that is lost, to 1e-12 of the kinetic energy. With c = 0 it is
     `planarimpact.lumped.rebound` in other units, to 1e-12.
 
     The state at separation is continuous in all arguments, with one exception. Where
@@ -186,37 +192,35 @@ def rebound(
     arguments = _checked(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
-    v2, m2, e, kappa, impacts = _groups(arguments)
-    outcome = solve(impacts)
+    v2, m2, kappa, groups = _groups(arguments)
+    contacts = OffCentre(*groups)
+    unsolved = solve(contacts)
     force_unit = np.sqrt(m2) * np.sqrt(kappa) * v2
-    with np.errstate(over="ignore"):
-        fields = [
-            outcome.velocity * v2,
-            outcome.approach * v2,
-            outcome.friction_impulse * v2 * m2,
-            outcome.normal_impulse * v2 * m2,
-            outcome.peak_friction * force_unit,
-            outcome.peak_normal * force_unit,
-            outcome.friction_work * v2 * (m2 * v2),
-            (1 - e) * (1 + e) * outcome.peak_normal**2 / 2 * v2 * (m2 * v2),
-            outcome.duration * np.sqrt(m2) / np.sqrt(kappa),
-        ]
-    refuse_overflow(NoncollinearRebound._fields, fields)
+    lost = 1 - groups[-1] ** 2
+    fields = [
+        contacts.z[Q] * v2,
+        contacts.z[Y] * v2,
+        *(contacts.impulses * v2 * m2),
+        contacts.peak_friction * force_unit,
+        contacts.peak * force_unit,
+        contacts.work * v2 * (m2 * v2),
+        lost * contacts.peak**2 / 2 * v2 * (m2 * v2),
+        contacts.duration * np.sqrt(m2) / np.sqrt(kappa),
+    ]
+    regime, jams = contacts.order.regimes().astype(np.uint8), contacts.jams
     shape = arguments[0].shape
-    unsolved = np.flatnonzero(outcome.given_up)
     if unsolved.size:
         if not shape:
-            raise ConvergenceError(_given_up(impacts, unsolved))
+            raise ConvergenceError(_given_up(groups, unsolved))
         # As NumPy does where a function of an array has no value for an entry.
-        warnings.warn(_given_up(impacts, unsolved), RuntimeWarning, stacklevel=3)
+        warnings.warn(_given_up(groups, unsolved), RuntimeWarning, stacklevel=3)
         for field in fields:
             field[unsolved] = np.nan
-        outcome.regime[unsolved], outcome.jams[unsolved] = Regime.UNRESOLVED, False
-    columns: list[Any] = [*fields, outcome.regime, outcome.jams]
-    *numbers, regime, jams = (column.reshape(shape)[()] for column in columns)
+        regime[unsolved], jams[unsolved] = Regime.UNRESOLVED, False
+    columns: list[Any] = [column.reshape(shape)[()] for column in (*fields, regime, jams)]
     if not shape:
-        regime, jams = Regime(int(regime)), bool(jams)
-    return NoncollinearRebound._make([*numbers, regime, jams])
+        columns[-2:] = Regime(int(regime[0])), bool(jams[0])
+    return NoncollinearRebound._make(columns)
 
 
 @checks.default_errors
@@ -266,15 +270,13 @@ def history(
     )
     if arguments[0].ndim:
         raise InputError(f"shape = {arguments[0].shape}: one contact takes scalars")
-    v2, m2, e, kappa, impacts = _groups(arguments)
-    trace: list[Phase] = []
-    if solve(impacts, trace).given_up[0]:
-        raise ConvergenceError(_given_up(impacts, np.zeros(1, int)))
+    v2, m2, kappa, groups = _groups(arguments)
+    steps: list[Step] = []
+    if solve(OffCentre(*groups), steps).size:
+        raise ConvergenceError(_given_up(groups, np.zeros(1, int)))
     units = (float(a[0]) for a in (v2, np.sqrt(m2) * np.sqrt(kappa), np.sqrt(m2) / np.sqrt(kappa)))
-    with np.errstate(over="ignore", invalid="ignore"):
-        result = timeline(trace, float(e[0]), float(impacts.stiffness_ratio[0]), samples, *units)
-    refuse_overflow(result._fields, result[:-1])
-    return result
+    _, _, coupling, zeta2, _, e = (float(group[0]) for group in groups)
+    return timeline(steps, coupling, zeta2, e, samples, *units)
 
 
 @checks.default_errors
@@ -299,8 +301,7 @@ def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: Inver
     Raises
     ------
     InputError
-        If an argument is not a finite real number in its range, if shapes do not broadcast, or
-        if the result is beyond float64.
+        If an argument is not a finite real number in its range, or shapes do not broadcast.
 
     Examples
     --------
@@ -313,11 +314,8 @@ def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: Inver
         normal=finite("normal", normal),
         **mass,
     )
-    with np.errstate(over="ignore"):
-        ratio = c / inverse_m1
-        energy = (v1 * v1 / inverse_m1 + (v2 + v1 * ratio) ** 2 / (inverse_m2 - c * ratio)) / 2
-    refuse_overflow(["kinetic energy"], [energy])
-    return energy
+    ratio = c / inverse_m1
+    return (v1 * v1 / inverse_m1 + (v2 + v1 * ratio) ** 2 / (inverse_m2 - c * ratio)) / 2
 
 
 def _checked(
@@ -340,50 +338,40 @@ def _checked(
         stiffness_ratio=checks.stiffness_ratio(stiffness_ratio),
         stiffness=positive("stiffness", stiffness),
     )
-    losses = tuple(name for name in lumped.LOSSES if name != "viscous")  # see `rebound`
+    of_loss = zeta2
     if loss is None:
-        checks.require_loss(restitution, losses)
+        checks.require_loss(restitution, NONCOLLINEAR)
     else:
-        checks.loss(loss, losses)
-    if loss == "unloading-stiffness":
-        if not e.all():
-            raise InputError(
-                f"restitution = 0: with loss = '{loss}' allowed are numbers above 0 (for no "
-                "tangential compliance use noncollinear.rigid)"
-            )
-        zeta2 = e * (e * zeta2)
-    return v1, v2, mu, e, zeta2, *others
+        of_loss = NONCOLLINEAR[checks.loss(loss, NONCOLLINEAR)].stiffness_ratio(zeta2, e)
+    inverse_m1, c, inverse_m2 = others[-3:]
+    checks.in_range("tangential/normal", v1 / v2, 0.0)
+    ratio = inverse_m1 / inverse_m2
+    checks.in_range("inverse_mass.tangential/normal", ratio, LEAST_RATIO, LARGEST_RATIO)
+    checks.in_range("friction", mu, 0.0, LARGEST_RATIO)
+    checks.tangential_frequency(ratio, zeta2, e, of_loss)
+    rattles = (e > 0) & (e < LEAST_RESTITUTION) & (mu * np.abs(c) > inverse_m2)
+    if rattles.any():
+        raise InputError(
+            f"restitution = {float(e[rattles][0])}: allowed are 0 and numbers from "
+            f"{LEAST_RESTITUTION:g} where friction can hold the contact closed (mu |c| m2 > 1)"
+        )
+    return v1, v2, mu, e, of_loss, *others
 
 
-def _groups(arguments: tuple[Array, ...]) -> tuple[Array, Array, Array, Array, Impacts]:
-    """Flat arrays: v2, m2, e, kappa, and the impacts in the solver's units."""
-    v1, v2, mu, e, zeta2, kappa, inverse_m1, c, inverse_m2 = arguments
-    with np.errstate(over="ignore", under="ignore"):
-        groups = {
-            "tangential/normal": (v1 / v2, -LARGEST),
-            "inverse_mass.tangential/normal": (inverse_m1 / inverse_m2, 1 / LARGEST),
-            "inverse_mass.coupling/normal": (c / inverse_m2, -LARGEST),
-            "stiffness_ratio": (zeta2, 1 / LARGEST),
-            "friction": (mu, -LARGEST),
-        }
-    ratio, beta, coupling, zeta2, mu = (
-        checked(name, group, f"numbers from {low:g} to {LARGEST:g}", low, LARGEST).reshape(-1)
-        for name, (group, low) in groups.items()
-    )
-    v2, e, kappa, inverse_m2 = (a.reshape(-1) for a in (v2, e, kappa, inverse_m2))
-    impacts = Impacts(ratio, beta, coupling, zeta2, mu, e)
-    return v2, 1 / inverse_m2, e, kappa, impacts
+def _groups(arguments: tuple[Array, ...]) -> tuple[Array, Array, Array, tuple[Array, ...]]:
+    """Flat arrays: v2, m2, kappa, and what `OffCentre` takes."""
+    v1, v2, mu, e, zeta2, kappa, inverse_m1, c, inverse_m2 = (a.reshape(-1) for a in arguments)
+    groups = v1 / v2, inverse_m1 / inverse_m2, c / inverse_m2, zeta2, mu, e
+    return v2, 1 / inverse_m2, kappa, groups
 
 
-def _given_up(impacts: Impacts, unsolved: Integers) -> str:
-    """The message for impacts that have too many phases, by their flat indices."""
-    groups = (float(field[unsolved[0]]) for field in impacts)
-    first = dict(zip(impacts._fields, groups, strict=True))
-    indices = checks.brief(unsolved.tolist())
-    which = f"impact {unsolved[0]}" if unsolved.size == 1 else f"impacts {indices}"
+def _given_up(groups: tuple[Array, ...], unsolved: Integers) -> str:
+    """The message for impacts that have too many steps, by their flat indices."""
+    first = {name: float(group[unsolved[0]]) for name, group in zip(GROUPS, groups, strict=True)}
+    which = f"impact {unsolved[0]}"
+    if unsolved.size > 1:
+        which = f"impacts {checks.brief(unsolved.tolist())}"
     return (
-        f"{unsolved.size} of {impacts.velocity.size} impacts given up, with too many phases or"
-        f" oscillations: {which}, counted from 0 in the flattened arguments. With V = v1/v2, C ="
-        " m2 c they are many where omega/Omega is large, where C^2 is near m2/m1, or where friction"
-        f" holds the contact closed (mu |C| > 1) while it rattles (e << 1). The first has {first}"
+        f"{unsolved.size} of {groups[0].size} impacts given up, with too many steps: {which}, "
+        f"counted from 0 in the flattened arguments. In units of v2 and m2 the first has {first}"
     )

@@ -8,7 +8,6 @@ contact point of positive depth in the tangential direction. Friction and normal
 where they oppose positive velocities of the (first) body.
 """
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -66,8 +65,8 @@ def inverse_mass(
         offset=finite("offset", offset),
         depth=finite("depth", depth),
     )
-    with np.errstate(over="ignore", invalid="ignore"):  # refused as not finite
-        offset, depth = offset / gyration, depth / gyration
+    offset, depth = offset / gyration, depth / gyration
+    with np.errstate(over="ignore"):  # refused as beyond the rule of sizes
         tangential, normal = (1 + depth**2) / mass, (1 + offset**2) / mass
         result = InverseMass(tangential, offset * depth / mass, normal)
     return checked_inverse_mass(result)
@@ -117,7 +116,7 @@ def checked_inverse_mass(value: InverseMass) -> InverseMass:
         coupling=finite("inverse_mass.coupling", value.coupling),
         normal=positive("inverse_mass.normal", value.normal),
     )
-    with np.errstate(over="ignore", under="ignore"):
+    with np.errstate(over="ignore"):  # where it is not
         # Every body has 1/(m1 m2) - c^2 = (1 + (offset^2 + depth^2)/k^2)/M^2 > 0.
         definite = np.abs(coupling) / normal * (np.abs(coupling) / tangential) < 1
     if not definite.all():
@@ -232,10 +231,3 @@ def motion_after(
     )
     spin_change = (normal * offset - friction * depth) / mass / gyration**2
     return Motion(tangential - friction / mass, approach - normal / mass, spin + spin_change)
-
-
-def refuse_overflow(names: Iterable[str], fields: Iterable[Array]) -> None:
-    """Refuse results that float64 cannot hold."""
-    for name, field in zip(names, fields, strict=False):
-        if not np.isfinite(field).all():
-            raise InputError(f"{name} of the result is beyond float64: choose other units")

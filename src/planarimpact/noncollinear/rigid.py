@@ -32,7 +32,7 @@ import numpy as np
 
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Booleans
-from planarimpact.noncollinear.configuration import InverseMass, checked_impact, refuse_overflow
+from planarimpact.noncollinear.configuration import InverseMass, checked_impact
 
 
 class Law(StrEnum):
@@ -102,7 +102,7 @@ def rebound(
     ------
     InputError
         If an argument is not a finite real number in its range, if shapes do not broadcast, or
-        if a result is beyond float64.
+        if an argument or a result is beyond 1e100 in size.
 
     Examples
     --------
@@ -117,12 +117,13 @@ def rebound(
     v1, v2, mu, e, inverse_m1, c, inverse_m2 = checked_impact(
         tangential, normal, inverse_mass, friction, restitution
     )
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         beta, coupling = inverse_m1 / inverse_m2, c / inverse_m2
         *fields, jams = _rebound(v1 / v2, mu, e, beta, coupling, law)
         units = v2, v2, v2 / inverse_m2, v2 / inverse_m2
         fields = [(field * unit)[()] for field, unit in zip(fields, units, strict=True)]
-    refuse_overflow(ImpulsiveRebound._fields, fields)
+    for name, field in zip(ImpulsiveRebound._fields, fields, strict=False):
+        checks.in_range(name, field, 0.0)
     return ImpulsiveRebound._make([*fields, jams[()]])
 
 

@@ -13,28 +13,8 @@ Units, except in `hertz`: E* = 1, R = 1, m2 = 1, |v2(0)| = 1, so that Hertz's fo
 (4/3) d^(3/2) at the approach d. The unit of length is (m2 v2(0)^2/(E* R^(1/2)))^(2/5).
 """
 
-from collections.abc import Callable
-from typing import NamedTuple
-
-from planarimpact.common.arrays import Array
 from planarimpact.normal_impact import hertz, kelvin_voigt, yielding
 
-__all__ = ["LAWS", "LEAST_RESTITUTION", "LOSSES", "Law", "hertz", "kelvin_voigt", "yielding"]
-
-
-class Law(NamedTuple):
-    """A law below e = 1, and the property of the material from which e follows at each speed."""
-
-    largest_force: Callable[[Array], Array]
-    property: str
-
-
-# The losses of spheres.
-VISCOUS, PLASTIC = "viscous", "plastic"
-LAWS = {
-    VISCOUS: Law(kelvin_voigt.largest_force, "relaxation_time"),
-    PLASTIC: Law(yielding.largest_force, "yield_pressure"),
-}
-LOSSES = tuple(LAWS)
+__all__ = ["LEAST_RESTITUTION", "hertz", "kelvin_voigt", "yielding"]
 # The inverses and forces of both laws hold from here. The viscous tables end at e = 0.0216.
 LEAST_RESTITUTION = 0.022

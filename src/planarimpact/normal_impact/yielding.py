@@ -28,8 +28,6 @@ __all__ = ["largest_force", "restitution", "yield_velocity"]
 
 # Fixed on finite elements with nu = 0.3, mu = 0.1, e = 0.46, 0.55 and 0.63 (data/finite_elements).
 FLOW = 0.95
-# Restitution down to which all powers of the yield velocity are numbers with all digits.
-LEAST_OF_LAW = 1e-30
 # Degree of the table of yield velocities, which is right to 2e-15.
 DEGREE = 32
 # Root of 1 - e below which the table has all digits that the restitution determines.

@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from planarimpact.collision import LOSSES, RESTITUTION_FROM
+from planarimpact.collision import RESTITUTION_FROM
 from planarimpact.common import checks
-from planarimpact.common.arrays import LARGEST, SMALLEST, Array, Booleans
-from planarimpact.common.checks import InputError
+from planarimpact.common.arrays import Array, Booleans
+from planarimpact.common.checks import LARGEST, LEAST, InputError
+from planarimpact.common.losses import SPHERES
 
 if TYPE_CHECKING:
     import pandas as pd
 
+LOSSES = tuple(SPHERES)
 HEADER = re.compile(r"(?P<name>[^\[\]]*?) *(\[(?P<unit>[^\]]*)\])?")
 
 
@@ -29,7 +31,7 @@ class Column(NamedTuple):
     high: float = LARGEST
 
 
-_above = partial(Column, allowed="finite numbers above 0", low=SMALLEST)
+_above = partial(Column, allowed="finite numbers above 0", low=LEAST)
 _from_0 = partial(Column, allowed="finite numbers from 0", low=0)
 AXES = "xyz"
 
@@ -43,7 +45,7 @@ BODY = {
 }
 # Numbers of the other body may be infinite, but for its density and Poisson's ratio.
 OTHER = {f"other_{name}": column for name, column in BODY.items()} | {
-    f"other_{name}": Column(BODY[name].unit, "", "numbers above 0, or inf", SMALLEST, np.inf)
+    f"other_{name}": Column(BODY[name].unit, "", "numbers above 0, or inf", LEAST, np.inf)
     for name in ("radius", "mass", "gyration", "young_modulus")
 }
 PAIR = {
@@ -256,7 +258,10 @@ def numbers(
             cell = table[text].iloc[position]
             shown = checks.brief(cell) if isinstance(cell, str) else checks.in_ascii(str(cell))
             hint = DECIMALS if "," in shown else ""
-            problems.setdefault(position, f"{text} = {shown}: allowed are {column.allowed}{hint}")
+            number = np.nan if name == "loss" else values[name][position]
+            bounds = column.low, min(column.high, LARGEST)
+            said = checks.refusal(text, number, column.allowed, *bounds, shown)
+            problems.setdefault(position, said + hint)
     inertia = ("other_density", "other_mass", "other_gyration")
     moves = np.any([np.isfinite(values[name]) for name in inertia if name in values], axis=0)
     for position in np.flatnonzero(np.isinf(values.get("other_radius", 0.0)) & moves).tolist():
@@ -283,7 +288,8 @@ def _checked(series: "pd.Series", column: Column) -> tuple[Array, Booleans]:
         values = series.to_numpy(dtype=float, na_value=np.nan)
     else:  # words, numbers that float64 may not hold, sparse or other objects: cell by cell
         values = np.array([_number(cell) for cell in series], dtype=float)
-    return values, ~((values >= column.low) & (values <= column.high))
+    most = min(column.high, LARGEST)
+    return values, ~((values >= column.low) & ((values <= most) | (values == column.high)))
 
 
 def _losses(series: "pd.Series") -> tuple[Any, Booleans]:

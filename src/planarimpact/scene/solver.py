@@ -7,10 +7,8 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.collision import (
-    PLASTIC,
     RESTITUTION_FROM,
     TOLERANCE,
-    VISCOUS,
     mechanics,
     methods,
     model_form,
@@ -159,8 +157,8 @@ class Solver:
         place, solved = answers.place, _has_answer(answers)
         counts = np.bincount(place[solved], minlength=len(methods.METHODS)).tolist()
         self._count_by_method += Counter(dict(enumerate(counts)))
-        has_loss = np.array([bool(method.loss) for method in methods.METHODS])
-        lossy = np.flatnonzero(has_loss[place] & solved)
+        has_loss = rows.impacts.loss_code >= 0
+        lossy = np.flatnonzero(methods.IS_CONTINUUM[place] & has_loss & solved)
         differences = form[lossy] / rows.impacts.unit[lossy]
         known = differences[np.isfinite(differences)]
         self._lossy += lossy.size
@@ -212,10 +210,7 @@ def _result(
     if "restitution" not in names:
         result |= {"restitution": impacts.restitution}
     if "loss" not in names:
-        viscous, plastic = (columns.LOSSES.index(loss) for loss in (VISCOUS, PLASTIC))
-        code = np.where(impacts.plastic, plastic, viscous)
-        code[impacts.restitution == 1] = -1  # none
-        result |= {"loss": pd.Categorical.from_codes(code, columns.LOSSES)}
+        result |= {"loss": pd.Categorical.from_codes(impacts.loss_code, columns.LOSSES)}
     models = list(dict.fromkeys(method.model for method in methods.METHODS))
     model = np.array([models.index(method.model) for method in methods.METHODS])[answers.place]
     # Without friction there is no force of it, also where the normal force is not known.

@@ -11,9 +11,11 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.bodies import Body, Material
-from planarimpact.collision import LOSSES, PLASTIC, RESTITUTION_FROM, Pair, mechanics
+from planarimpact.collision import RESTITUTION_FROM, Pair, mechanics
 from planarimpact.collision.mechanics import Impacts, State
-from planarimpact.common.arrays import LARGEST, Array
+from planarimpact.common.arrays import Array
+from planarimpact.common.checks import LARGEST
+from planarimpact.common.losses import CODES, SPHERES, VISCOUS
 from planarimpact.scene.columns import AXES, PLANE
 
 
@@ -50,15 +52,17 @@ def _peak_normal(impacts: Impacts, modulus: Array, radius: Array) -> Array:
     grows without a bound as e approaches 0, and a plastic one falls to 0.
     """
     known = impacts.restitution >= bodies.LEAST_RESTITUTION
-    approaches = (impacts.v2 > 0) & np.isfinite(impacts.v2)  # others are refused later
-    speed = np.where(approaches, impacts.v2, 1.0)
+    speed = np.where(impacts.v2 > 0, impacts.v2, 1.0)  # others are refused later
     peak = np.full(speed.size, np.nan)
-    for name in LOSSES:
-        which = known & (impacts.plastic == (name == PLASTIC))
+    code = np.where(
+        impacts.loss_code < 0, CODES[VISCOUS], impacts.loss_code
+    )  # at e = 1 any of them
+    for loss in SPHERES.values():
+        which = known & (code == CODES[loss])
         if which.any():
             # All impacts are computed, so that a refusal has the index of its row.
             e = np.where(which, impacts.restitution, 1.0)
-            force = bodies.peak_force(impacts.m2, speed, modulus, radius, e, name)
+            force = bodies.peak_force(impacts.m2, speed, modulus, radius, e, loss.name)
             peak = np.where(which, force, peak)
     return peak
 
@@ -92,7 +96,7 @@ def _materials(values: dict[str, Array]) -> tuple[Material, Material | None]:
     if "other_young_modulus" not in values:
         return material, None
     young, poisson = values["other_young_modulus"], values["other_poisson_ratio"]
-    # A rigid counterbody adds no compliance. A very large Young's modulus has the same effect.
+    # A rigid counterbody adds no compliance. The largest modulus of all has the same effect.
     young = np.where(np.isinf(young), LARGEST, young)
     return material, Material(young, poisson)
 

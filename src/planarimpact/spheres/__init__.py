@@ -11,10 +11,12 @@ import numpy as np
 
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.losses import CODES, PLASTIC, SPHERES
 from planarimpact.common.results import Rebound, Regime
-from planarimpact.normal_impact import LOSSES as LOSSES
 from planarimpact.spheres import table
 
+# Names of the losses that spheres have.
+LOSSES = tuple(SPHERES)
 # By panel of the table, and by loss: the largest difference from the continuum, of velocity
 # (mu v2(0)), peak friction (mu F2max) and, with viscous loss, dissipation (mu^2 m2 v2(0)^2); times
 # x where that is below 1. It is measured, not proved: a little above the largest error that the
@@ -142,7 +144,7 @@ def rebound(
 table of spheres
     """
     groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    codes = checks.losses(loss, LOSSES)
+    codes = checks.losses(loss, SPHERES)
     try:
         signed, beta, zeta2, e, codes = np.broadcast_arrays(*groups, codes)
     except ValueError:
@@ -150,7 +152,7 @@ table of spheres
         raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
     if (codes < 0).any():
         checks.require_loss(np.where(codes < 0, e, 1.0), LOSSES)
-    plastic = (codes == LOSSES.index("plastic")).reshape(-1)
+    plastic = (codes == CODES[PLASTIC]).reshape(-1)
     _refuse_uncovered(beta, zeta2, e)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
     velocity, peak, work = np.empty((3, x.size))
@@ -181,8 +183,7 @@ def _rebound(
     x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans, forces: bool
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, peak friction, work of friction and regime of impacts with x >= 0."""
-    with np.errstate(over="ignore"):  # of impacts that slide
-        y, b = x / zeta2, beta / zeta2
+    y, b = x / zeta2, beta / zeta2
     velocity = sliding.velocity(x, beta, e)
     peak, work = np.full((2, x.size), 1.0 if forces else np.nan)
     if forces:

@@ -13,7 +13,6 @@ wrong y, but it does not jump.
 
 from collections.abc import Sequence
 from functools import cache
-from importlib import resources
 from itertools import pairwise
 from math import sqrt
 from typing import IO, Any, NamedTuple
@@ -88,6 +87,8 @@ class Table(NamedTuple):
 @cache
 def shipped(name: str = "fine") -> Table:
     """A table of this package: "fine", or "coarse", which is small and good enough for pictures."""
+    from importlib import resources  # here, as it takes longer to import than this module
+
     with resources.files(__package__).joinpath(f"{name}.npz").open("rb") as file:
         table = read(file)
     for values in (table.limits, *(part for panel in table.panels.values() for part in panel[1:])):

@@ -98,7 +98,7 @@ def _ball(
             "poisson_ratio": round(float(_poisson_ratio(float(pair.stiffness_ratio))), 4),
             "mass_ratio": f"{float(bodies.mass_ratio(body)):g}",
             "radius": f"{1000 * float(body.radius):.3g}",
-            "loss": "plastic" if pair.plastic else "viscous",
+            "loss": str(pair.loss),
             **state,
         }
         source, caveat = given.source, f"{caveat} {given.caveat}"

@@ -130,7 +130,7 @@ class Contact:
         return State(
             np.asarray(event_or_history.time) * self.compression_time,
             np.asarray(event_or_history.normal) * self.force_scale,
-            np.asarray(event_or_history.friction) * self.friction_scale,
+            np.asarray(event_or_history.friction_force) * self.friction_scale,
             np.asarray(event_or_history.velocity) * self.velocity_scale,
             np.asarray(event_or_history.spring) * -self.velocity_scale / self.normal_frequency,
         )

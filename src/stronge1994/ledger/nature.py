@@ -80,7 +80,7 @@ def peak_time(model: str = PAPER) -> float:
     """Latest time at which friction is largest, in $t_c$."""
     times = []
     for history in _histories(model, *ALL_PHASES):
-        size = np.abs(history.friction)
+        size = np.abs(history.friction_force)
         # Friction may reach the same peak twice.
         times.append(history.time[np.argmax(size >= (1 - 1e-3) * size.max())])
     return float(max(times))
@@ -160,7 +160,7 @@ def kept_after(phase: str, model: str = PAPER) -> float:
     kept = []
     for history in _histories(model, *FIRST_PHASES[phase]):
         before_separation = history.time < 0.999 * history.time[-1]
-        kept.append(history.friction[before_separation][-1] > 0)
+        kept.append(history.friction_force[before_separation][-1] > 0)
     return float(np.mean(kept))
 
 

@@ -70,7 +70,9 @@ def _instants(x: float, beta: float, zeta2: float, e: float) -> tuple[float, flo
     events = lumped.history(x, beta, zeta2, e, samples=2).events
     stick = next((event.time for event in events if event.kind == EventKind.STICK), None)
     if stick is None:
-        return None
+        # A stick that takes no time, at maximum compression, is no event.
+        instant = x < lumped.slip_throughout_limit(beta, zeta2, e)
+        return (np.pi / 2, np.pi / 2) if instant else None
     slips = [event.time for event in events if event.kind == EventKind.SLIP]
     # The paper has one slip after stick. If there is none, stick lasts to separation.
     after = next((time for time in slips if time > stick), 1 + e)

@@ -21,6 +21,7 @@ import numpy as np
 
 from planarimpact.common import sliding
 from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.losses import PLASTIC, VISCOUS, Loss
 from planarimpact.common.results import Regime
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
@@ -30,7 +31,7 @@ from planarimpact.continuum.inelastic.viscous import ViscousMotion
 from planarimpact.continuum.refinement import Solved
 
 # The normal motion and the springs, by what takes the energy.
-MOTIONS: dict[str, type[NormalMotion]] = {"viscous": ViscousMotion, "plastic": PlasticMotion}
+MOTIONS: dict[Loss, type[NormalMotion]] = {VISCOUS: ViscousMotion, PLASTIC: PlasticMotion}
 # Friction within this share of its limit is gross slip. Near separation less stick than that cannot
 # be told from rounding.
 GROSS = 1 - 1e-6
@@ -49,7 +50,7 @@ class Path(NamedTuple):
     ----------
     time : ndarray, shape (steps + 1, n)
         In that of compression.
-    normal, friction : ndarray, shape (steps + 1, n)
+    normal, friction_force : ndarray, shape (steps + 1, n)
         Over the largest normal force, and mu times that.
     velocity, radius, stick_radius : ndarray, shape (steps + 1, n)
         The radii over the largest radius of contact.
@@ -59,7 +60,7 @@ class Path(NamedTuple):
 
     time: Array
     normal: Array
-    friction: Array
+    friction_force: Array
     velocity: Array
     radius: Array
     stick_radius: Array
@@ -77,7 +78,7 @@ def rebound(
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, np.array([1e-5]), MOTIONS["viscous"])[0].round(4)
+    >>> rebound(*groups, np.array([1e-5]), MOTIONS[VISCOUS])[0].round(4)
     array([-0.4805])
     """
     motion = kind(e)
@@ -124,8 +125,8 @@ def path(
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> [path(*groups, kind, 128).velocity[-1].round(3) for kind in MOTIONS.values()]
-    [array([-0.482]), array([-0.185])]
+    >>> path(*groups, MOTIONS[PLASTIC], 128).velocity[-1].round(3)
+    array([-0.185])
     """
     motion, column = kind(e), np.arange(x.size)
     # Gross slip from the start ends at this normal velocity, at once for x <= zeta^2.
@@ -200,7 +201,7 @@ def contact(
     """One contact, its arguments of shape (1,): columns of `Path` up to the radius of stick."""
     fine = refinement.settled_path(
         lambda steps: path(x, beta, zeta2, e, kind, steps),
-        (Path._fields.index("friction"), Path._fields.index("velocity")),
+        (Path._fields.index("friction_force"), Path._fields.index("velocity")),
         (x, beta, zeta2),
         kind(e).steps_needed(beta, zeta2),
         tolerance,
@@ -215,9 +216,9 @@ def _summary(impacts: Path) -> Solved:
     How near one gross slip more or less is, is not known here: 1 stands for it. So only a change of
     the count tells `refinement.refine` that a gross slip came or went.
     """
-    size = np.abs(impacts.friction)
+    size = np.abs(impacts.friction_force)
     gross = (size >= GROSS * impacts.normal)[1:-1]
     slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
-    counts = np.stack([slips, refinement.sign_changes(impacts.friction)])
+    counts = np.stack([slips, refinement.sign_changes(impacts.friction_force)])
     values = np.stack([impacts.velocity[-1], impacts.peak, impacts.work])
     return values, counts, np.ones(slips.size)

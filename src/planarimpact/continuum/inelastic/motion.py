@@ -162,8 +162,7 @@ class NormalMotion(ABC):
         beta <= zeta^2 it never is.
         """
         slows = beta > zeta2
-        with np.errstate(over="ignore"):  # also where it hardly is
-            velocity = np.where(slows, (beta - x) / np.where(slows, beta - zeta2, 1.0), -np.inf)
+        velocity = np.where(slows, (beta - x) / np.where(slows, beta - zeta2, 1.0), -np.inf)
         return np.where(x > zeta2, velocity, 1.0)
 
     def slides_from(self, beta: Array, zeta2: Array) -> Array:

@@ -76,8 +76,7 @@ class ViscousMotion(NormalMotion):
         time. It may be longer where slip frees the springs, so that damping refuses no impact.
         """
         duration = self._compression.last[2] + self._after.last[2]
-        with np.errstate(over="ignore"):
-            damping = 2 * self.tau * self._compression.last[0] * duration * (beta / zeta2)
+        damping = 2 * self.tau * self._compression.last[0] * duration * (beta / zeta2)
         return np.maximum(super().steps_needed(beta, zeta2), np.minimum(damping, MOST_STEPS))
 
     def density(self, instant: int) -> Array:

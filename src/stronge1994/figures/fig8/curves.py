@@ -42,7 +42,9 @@ def curves(
     theta = vertices(angle, samples, np.degrees(np.arctan(friction * thresholds)), extra)
     x = np.tan(np.radians(theta)) / friction
     peak = lumped.rebound(x, mass_ratio, stiffness_ratio).peak_friction
-    lowest = [lumped.history(value, mass_ratio, stiffness_ratio).friction.min() for value in x]
+    lowest = [
+        lumped.history(value, mass_ratio, stiffness_ratio).friction_force.min() for value in x
+    ]
     normal = hertz * np.cos(np.radians(theta))
     largest = {
         "normal": {"angle [deg]": theta, "peak_force [N]": normal},

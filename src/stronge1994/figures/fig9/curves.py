@@ -49,10 +49,10 @@ def curves(
             theta = vertices(angle, samples, np.degrees(np.arctan(mu * thresholds)), extra)
             x, share = _incidence_and_share(theta, mu)
             lost = lumped.rebound(x, mass_ratio, stiffness_ratio, e).dissipation
-            work = [lumped.friction_work(value, mass_ratio, stiffness_ratio, e) for value in x]
+            work = lumped.friction_work(x, mass_ratio, stiffness_ratio, e)
             rough = rigid.rebound(x, mass_ratio, restitution=e).dissipation
             columns = {ANGLE: theta, LOST: share * lost}
-            both = columns | {"friction_work [m2 S^2/2]": share * np.array(work)}
+            both = columns | {"friction_work [m2 S^2/2]": share * work}
             parts.append(tables.curve(both, "lumped", mu=mu, e=e))
             parts.append(tables.curve({ANGLE: theta, LOST: share * rough}, "rigid", mu=mu, e=e))
             if as_printed:

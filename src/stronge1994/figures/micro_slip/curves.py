@@ -43,6 +43,6 @@ def _columns(contact: ContinuumHistory | History) -> dict[str, Array]:
     return {
         "time [t_c]": contact.time,
         "normal_force [F2max]": contact.normal,
-        "friction_force [mu F2max]": contact.friction,
+        "friction_force [mu F2max]": contact.friction_force,
         "velocity [mu v2(0)]": contact.velocity,
     }

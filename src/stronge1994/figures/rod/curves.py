@@ -125,7 +125,7 @@ def _followed(contact: NoncollinearHistory) -> dict[str, Any]:
     return {
         "time [1/Omega]": contact.time,
         "normal_force [m2 Omega v2(0)]": contact.normal_force,
-        "friction_force [m2 Omega v2(0)]": contact.friction,
+        "friction_force [m2 Omega v2(0)]": contact.friction_force,
         "tangential_velocity [v2(0)]": contact.tangential,
         "normal_velocity [v2(0)]": contact.normal,
         "event": event,

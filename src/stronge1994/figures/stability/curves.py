@@ -19,8 +19,15 @@ GROUPS = {
 }
 OUTPUTS = ("velocity", "peak_friction", "dissipation")
 ROUNDING = 2.0**-52
-# Smaller numbers have less than two digits in float64: a hundred times its smallest number.
-FLOOR = 100 * 5e-324
+# Smaller numbers count as zero: outputs that happen to be zero have no size.
+FLOOR = 1e-300
+# Friction of contacts that are followed, in mu F2max: forces on the way have the rounding error of
+# the largest normal force, so weaker friction has not enough digits for a balance of energy.
+LEAST_FRICTION = 0.01
+# Instants of a contact besides its events.
+SAMPLES = 20
+# Excess of friction, and share of energy, of a contact that cannot be followed.
+UNKNOWN = 1.0
 # Largest number of digits that is counted.
 DIGITS = 16.0
 
@@ -28,14 +35,15 @@ DIGITS = 16.0
 _Result = TypeVar("_Result")
 
 
-def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Table:
+def curves(points: Mapping[str, Sequence[float]], most_frequency: float) -> Table:
     """Digits of every output at given impacts, and the balances of their contacts.
 
     `points` has answers of many digits and their conditions, see data/lumped_extremes/source.yaml.
     Allowed are the digits that the condition of an output leaves if every number is rounded once;
     `digits_lost` says how many fewer the worst output has. An impact that raises, warns or gives
-    NaN has no digits and loses 16. These are in the variant `impacts`. In `contacts`,
-    `friction_excess` is how far friction exceeds the Coulomb limit at the worst event;
+    NaN has no digits and loses 16. These are in the variant `impacts`. The contacts of up to
+    `most_frequency` are followed, but for those with friction below LEAST_FRICTION: in `contacts`,
+    `friction_excess` is how far friction exceeds the Coulomb limit at the worst instant;
     `energy_residual` is how far the work of friction along the contact differs from the balance of
     energy, over the most work that friction could do plus the condition.
 
@@ -53,32 +61,38 @@ def curves(points: Mapping[str, Sequence[float]], most_phases: int) -> Table:
     labelled["phases [1]"] = table["phases"].astype(int)
 
     columns, lost = {}, []
-    solved = dict(zip(OUTPUTS, _solved(groups), strict=True))
-    for name, output in solved.items():
+    solved = _solved(lambda *own: lumped.rebound(*own)[:3], groups, len(OUTPUTS))
+    for name, output in zip(OUTPUTS, solved, strict=True):
         digits = _digits(output, table[name], table[f"condition_{name}"])
         columns[f"digits_{name} [1]"], columns[f"digits_allowed_{name} [1]"] = digits[:2]
         lost.append(digits[2])
     columns["digits_lost [1]"] = np.max(lost, axis=0)
 
-    few = (table["phases"] > 1) & (table["phases"] <= most_phases)
-    size = np.maximum(_most_work(*groups) + table["condition_dissipation"], FLOOR)
-    lost_energy = np.broadcast_to(solved["dissipation"], size.shape)
-    balances = [_balances(*row) for row in np.vstack([size, lost_energy, groups]).T[few]]
-    excess, residual = np.array(balances).reshape(-1, 2).T
+    few = (table["phases"] > 1) & (labelled["omega [Omega]"] <= most_frequency)
+    few &= table["peak_friction"] >= LEAST_FRICTION
     followed = {name: values[few] for name, values in labelled.items()}
+    excess = np.array([_excess(*row) for row in groups[:, few].T])
+    [work] = _solved(lambda *own: [lumped.friction_work(*own)], groups[:, few], 1)
+    lost_energy = np.broadcast_to(solved[-1], few.shape)[few]
+    gap, e = np.abs(work - lost_energy), groups[-1, few]
+    size = np.maximum(_most_work(*groups) + table["condition_dissipation"], FLOOR)[few]
+    # For e = 0 the tangential spring loses energy too.
+    residual = np.where((e == 0) | (gap <= FLOOR), 0.0, np.fmin(gap / size, 1.0))
+    residual = np.where(excess == UNKNOWN, 1.0, residual)
     followed |= {"friction_excess [mu F2max]": excess, "energy_residual [1]": residual}
     variants = {"impacts": labelled | columns, "contacts": followed}
     return tables.join(tables.curve(own, "lumped", variant) for variant, own in variants.items())
 
 
-def _solved(groups: Array) -> Array:
-    """Outputs of impacts, shape (3, n); NaN only for those that raise or warn."""
-    outputs = _attempt(lambda: np.stack(lumped.rebound(*groups)[:3]))
+def _solved(solve: Callable[..., Sequence[Array]], groups: Array, count: int) -> Array:
+    """Outputs of impacts, shape (count, n); NaN only for those that raise or warn."""
+    outputs = _attempt(lambda: np.stack(solve(*groups)))
     if outputs is not None:
         return outputs
     if groups.shape[1] == 1:
-        return np.full((len(OUTPUTS), 1), np.nan)
-    return np.concatenate([_solved(half) for half in np.array_split(groups, 2, axis=1)], axis=1)
+        return np.full((count, 1), np.nan)
+    halves = np.array_split(groups, 2, axis=1)
+    return np.concatenate([_solved(solve, half, count) for half in halves], axis=1)
 
 
 def _attempt(call: Callable[[], _Result]) -> _Result | None:
@@ -105,20 +119,13 @@ def _digits(solved: Array, exact: Array, condition: Array) -> tuple[Array, Array
     return correct + 0.0, np.clip(allowed, 0.0, DIGITS) + 0.0, lost  # no -0.0
 
 
-def _balances(
-    size: float, dissipation: float, x: float, beta: float, zeta2: float, e: float
-) -> tuple[float, float]:
-    """Excess of friction over the Coulomb limit, and error of energy over `size`, at most 1."""
-    groups = x, beta, zeta2, e
-    events = _attempt(lambda: lumped.history(x, beta, zeta2, e, samples=2).events)
-    work = _attempt(lambda: lumped.friction_work(*groups))
-    if events is None or work is None or np.isnan(dissipation):
-        return 1.0, 1.0
-    gap = work - dissipation
-    excess = np.max([abs(event.friction) - event.normal for event in events], initial=0.0)
-    excess = np.nan_to_num(excess, nan=1.0)
-    # For e = 0 the tangential spring loses energy too.
-    return excess, 0.0 if e == 0 or abs(gap) <= FLOOR else min(1.0, float(abs(gap)) / size)
+def _excess(x: float, beta: float, zeta2: float, e: float) -> float:
+    """Excess of friction over the Coulomb limit at the worst instant; UNKNOWN without a history."""
+    history = _attempt(lambda: lumped.history(x, beta, zeta2, e, samples=SAMPLES))
+    if history is None:
+        return UNKNOWN
+    excess = np.max(np.abs(history.friction_force) - history.normal, initial=0.0)
+    return float(np.nan_to_num(excess, nan=UNKNOWN))
 
 
 def _most_work(x: Array, beta: Array, zeta2: Array, e: Array) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from planarimpact import continuum, lumped, models
+from planarimpact.common import losses
 from planarimpact.common.arrays import Array
 from planarimpact.common.results import Rebound
 from stronge1994 import tables
@@ -111,9 +112,11 @@ def at_kinks(groups: Mapping[str, float], incidence: Sequence[float]) -> Array:
     [1.2, 1.21, 1.22, 5.7897, 5.793, 6.999, 7.001]
     """
     beta, zeta2, e = (groups[name] for name in ("mass_ratio", "stiffness_ratio", "restitution"))
-    kinks = {zeta2, e * e * zeta2, (1 + e) * beta}
-    for model, losses in ((lumped, lumped.LOSSES), (continuum, continuum.LOSSES)):
-        kinks |= {float(model.slip_throughout_limit(beta, zeta2, e, loss=loss)) for loss in losses}
+    kinks = {zeta2, (1 + e) * beta}
+    kinks |= {float(loss.stiffness_ratio(zeta2, e)) for loss in losses.LUMPED.values()}
+    for model in (lumped, continuum):
+        limits = (model.slip_throughout_limit(beta, zeta2, e, loss=loss) for loss in model.LOSSES)
+        kinks |= set(map(float, limits))
     steps = np.array([0.0, *BESIDE_KINK])
     places = np.unique(np.add.outer(sorted(kinks), [*-steps, *steps]).round(12))
     return places[(places >= incidence[0]) & (places <= incidence[1])]
@@ -186,7 +189,7 @@ def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: str
     >>> float(reference(np.array([8.0]), groups, 1e-3, "plastic").velocity[0])
     2.75
     """
-    name = models.reference(groups["restitution"], loss or continuum.VISCOUS)
+    name = models.reference(groups["restitution"], loss or None)
     return models.rebound(name, x, **groups, tolerance=tolerance)
 
 
@@ -201,7 +204,7 @@ def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
     >>> input_spread(np.array([8.0]), groups, "").round(2)
     array([0.7])
     """
-    loss = loss or continuum.VISCOUS
+    loss = loss or losses.VISCOUS.name
     lowest = groups | {"restitution": groups["restitution"] - 2 * models.RESTITUTION_ERROR}
     if models.admits(models.get(f"spheres.{loss}"), **lowest):
         return models.input_spread(f"spheres.{loss}", x, **groups)

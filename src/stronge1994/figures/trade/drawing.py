@@ -99,10 +99,19 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     first = settings["restitution"][0]
     growth.set(title=f"(d) $e = {first:g}$", xlabel="impacts together", ylabel=TIME_LABEL)
     figure.suptitle(f"(a) to (c): {batch} impacts together", fontsize=house_style.NOTE)
-    styles = {str(style["label"]): style for style in MARKS.values()}
+    styles = {str(mark["label"]): mark for mark in map(mark_of, [*MARKS, *curves["model"]])}
     keys = [house_style.key(**style) for style in styles.values()] + [Patch(**HIDDEN)]
     house_style.legend_below(figure, keys[:9], keys[9:])
     return figure
+
+
+def mark_of(model: str) -> Style:
+    """The mark of a model; one that has none in `MARKS` has its own name.
+
+    >>> mark_of("lumped.viscous")["label"], mark_of("own.law")["label"]
+    ('lumped, viscous', 'own.law')
+    """
+    return MARKS.get(model, _mark(model, "h", house_style.GREY, filled=False))
 
 
 def _draw_errors(axes: Axes, rows: Table, time: str, numbers: bool) -> None:
@@ -111,7 +120,7 @@ def _draw_errors(axes: Axes, rows: Table, time: str, numbers: bool) -> None:
     With `numbers` the setting of a model stands beside its point, or the name of a formula.
     """
     for _, row in rows.iterrows():
-        axes.plot([row[time]], [row[ERROR]], **MARKS[row["model"]])
+        axes.plot([row[time]], [row[ERROR]], **mark_of(row["model"]))
         if numbers and (text := _number(row)):
             # Names stand on the left: formulas are fast, and of nearly one time.
             left: Style = {"xytext": (-5, 0), "ha": "right", "va": "center"}

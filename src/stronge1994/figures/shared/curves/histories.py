@@ -40,7 +40,10 @@ def _columns(contact: History) -> dict[str, Any]:
     parts = {
         "time [t_c]": (contact.time, [e.time for e in events]),
         "normal_force [m2 Omega v2(0)]": (contact.normal, [e.normal for e in events]),
-        "friction_force [mu m2 Omega v2(0)]": (contact.friction, [e.friction for e in events]),
+        "friction_force [mu m2 Omega v2(0)]": (
+            contact.friction_force,
+            [e.friction_force for e in events],
+        ),
         "velocity [mu v2(0)]": (contact.velocity, [e.velocity for e in events]),
     }
     columns = {key: np.concatenate([a[~at_event], b]) for key, (a, b) in parts.items()}
