@@ -2,7 +2,7 @@
 
 Whoever calls it knows a bracket in which there is one such place, and derives that where the event
 belongs. The search keeps the bracket, so it ends. It steps by as many derivatives as the function
-returns, so it is fast. Where no bracket is known, `noncollinear.stick_end` has a search of its own.
+returns, so it is fast. Where no bracket is known, `phases` has a search of its own.
 """
 
 from collections.abc import Callable
