@@ -45,9 +45,10 @@ def history(loss: Loss, mirror: float, impact: Impacts, samples: int) -> History
 
 def friction_work(loss: Loss, impacts: Impacts) -> Array:
     """Work of friction of impacts, by the loop of `planarimpact.phases`."""
-    damped = np.flatnonzero(_damped(loss, impacts))
-    work = histories.friction_work(_springs(loss, impacts))
-    work[damped] = dashpots.solve(impacts.take(damped)).dissipation
+    damped, work = _damped(loss, impacts), np.empty_like(impacts.x)
+    with_dashpots, without = (impacts.take(np.flatnonzero(part)) for part in (damped, ~damped))
+    work[damped] = dashpots.solve(with_dashpots).dissipation
+    work[~damped] = histories.friction_work(_springs(loss, without))
     return work
 
 

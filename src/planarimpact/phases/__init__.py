@@ -48,8 +48,9 @@ from planarimpact.common.arrays import Array, Booleans, Integers
 TERMS, REACH = 24, 2.0
 # Coefficients below this share of their terms count as zero. If as many as DECIDING do, all do.
 TIE, DECIDING = 1e-14, 8
-# Contacts that take a step together: their series fit a cache.
-BLOCK = 1024
+# Contacts that take a step together: their series fit a cache. And that are followed together:
+# plans of more would take too much memory, some kilobyte each.
+BLOCK, CHUNK = 1024, 32768
 # A contact that takes more steps is given up; one with omega/Omega = 1e4 takes some 15 000.
 MOST_STEPS = 40_000
 # No step is longer than that of this rate.
@@ -154,13 +155,18 @@ def follow(
     (0, True)
     """
     who = _not_alone(np.arange(z.shape[1]) if who is None else who)
+    if who.size > CHUNK:
+        parts = np.split(who, range(CHUNK, who.size, CHUNK))
+        return np.concatenate([follow(contacts, z, part) for part in parts])
     plan = _Plan.of(contacts, who)
     passed = Passed.nothing(len(z), who.size)
     for _ in range(MOST_STEPS):
         if not who.size:
             break
-        parts = [slice(start, start + BLOCK) for start in range(0, who.size, BLOCK)]
-        ends = [_advance(_views(plan, p), z.take(who[p], axis=1), _views(passed, p)) for p in parts]
+        blocks = [slice(start, start + BLOCK) for start in range(0, who.size, BLOCK)]
+        ends = [
+            _advance(_views(plan, b), z.take(who[b], axis=1), _views(passed, b)) for b in blocks
+        ]
         if steps is not None:
             [(series, share, *_)] = ends
             step = series[..., 0], float(plan.length[0]), float(share[0])
