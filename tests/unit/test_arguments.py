@@ -95,7 +95,6 @@ ARGUMENTS = {
     "steps": ("count", 64),
     "tangential_restitution": ("share", 0.5),
     "model": ("word", "rigid"),
-    "name": ("word", "rigid"),
     "law": ("word", "yade"),
     "pair": ("record", Pair(STEEL, friction=0.2, restitution=1.0)),
     "body": ("record", BALL),
