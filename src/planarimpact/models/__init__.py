@@ -4,8 +4,9 @@ Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitu
 the four groups by position or name and its own settings by name. It returns a `Rebound`. The
 workflow measures what each model costs and how large its error is (`results/curves/trade.csv`).
 
-Arguments and errors: a `model` is a name of `MODELS` or a `Model`. `incidence`, `mass_ratio`, `stiffness_ratio` and `restitution` are those of `planarimpact.lumped.rebound`;
-`settings` are those of the model, and have its defaults. `InputError` says what is not allowed.
+Arguments and errors: a `model` is a name of `MODELS` or a `Model`. `incidence`, `mass_ratio`,
+`stiffness_ratio` and `restitution` are those of `planarimpact.lumped.rebound`; `settings` are those
+of the model, and have its defaults. `InputError` says what is not allowed.
 
 A name contains what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
 "lumped" and "continuum" alone are elastic. A law of impulses takes any loss. A `Model` of your own
