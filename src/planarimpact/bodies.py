@@ -123,34 +123,22 @@ _LAWS = {VISCOUS: kelvin_voigt, PLASTIC: yielding}
 # NumPy does not warn, whatever the caller has set: `in_range` refuses bad results.
 quietly = np.errstate(over="ignore", invalid="ignore", divide="ignore", under="ignore")
 
-# Rules: of an argument's name and value to an array of numbers, or to a tuple's fields by name.
-_Rule: TypeAlias = Callable[[str, Any], Any]
+# A rule takes the name and the value of an argument, refuses what is not allowed, and returns an
+# array. Of a tuple it returns its fields by their names, and {} of what a formula takes as it is.
+_RuleOfNumbers: TypeAlias = Callable[[str, Any], Array]
+_Rule: TypeAlias = Callable[[str, Any], Array | dict[str, Array]]
+_FIELDS: dict[type, dict[str, _RuleOfNumbers]] = {}  # rules of the fields of a tuple
 _Tuple = TypeVar("_Tuple", bound=tuple[Any, ...])
-_FIELDS: dict[type, dict[str, _Rule]] = {}
+_Arguments = ParamSpec("_Arguments")
+_Result = TypeVar("_Result")
 
 _positive_or_infinite = partial(
     checked, allowed="numbers above 0, or inf", low=0, open_low=True, infinite=True
 )
 _poisson = partial(checked, allowed="numbers above -1, up to 0.5", low=-1, high=0.5, open_low=True)
-# The groups scale tangential velocities by mu: at mu = 0 they no longer hold v1.
-_friction = partial(positive, allowed="finite numbers above 0 (without friction v1 stays as it is)")
-_MOST_DEGREES = float(np.nextafter(90, 0))
-_degrees = partial(
-    checked,
-    allowed="degrees between -90 and 90, exclusive",
-    low=-_MOST_DEGREES,
-    high=_MOST_DEGREES,
-)
-_law_restitution = partial(
-    checked, allowed=f"numbers from {LEAST_RESTITUTION} to 1", low=LEAST_RESTITUTION, high=1
-)
 
 
-def _restitution(_: str, value: ArrayLike) -> Array:
-    return checks.restitution(value)
-
-
-def _check_fields(**rules: _Rule) -> Callable[[type[_Tuple]], type[_Tuple]]:
+def _check_fields(**rules: _RuleOfNumbers) -> Callable[[type[_Tuple]], type[_Tuple]]:
     """Decorator of a named tuple: every new tuple's fields are checked by these rules."""
 
     def decorate(tuple_type: type[_Tuple]) -> type[_Tuple]:
@@ -231,56 +219,90 @@ def fields(
     return {f"{name}.{field}": rule(f"{name}.{field}", v) for (field, rule), v in named}
 
 
-_body, _material = partial(fields, kind=Body), partial(fields, kind=Material)
-
-
 def _material_or_rigid(name: str, value: Material | None) -> dict[str, Array]:
-    return {} if value is None else _material(name, value)
+    return {} if value is None else fields(name, value, Material)
 
 
 def _approaching(name: str, value: Motion) -> dict[str, Array]:
-    motion = fields(name, value, Motion)
-    motion[f"{name}.normal"] = positive(f"{name}.normal", value.normal)
-    return motion
+    normal = f"{name}.normal"
+    return {**fields(name, value, Motion), normal: positive(normal, value.normal)}
 
 
-# Rules of the arguments that describe a contact, and an impact; in the order of all laws.
-_CONTACT: dict[str, _Rule] = {
+def _any_restitution(_: str, value: ArrayLike) -> Array:
+    return checks.restitution(value)
+
+
+def _loss(_: str, value: str) -> dict[str, Array]:
+    checks.loss(value, SPHERES)
+    return {}
+
+
+# The rules of all arguments, by name, but for those that a formula has of its own.
+_RULES: dict[str, _Rule] = {
+    "body": partial(fields, kind=Body),
+    "other": partial(fields, kind=Body),
+    "material": partial(fields, kind=Material),
+    "motion": _approaching,
+    "radius": positive,
+    "density": positive,
+    "tangential": finite,
+    "normal": finite,
+    "spin": finite,
+    "v1": finite,
+    "v2": positive,
+    "theta_deg": partial(
+        checked,
+        allowed="degrees between -90 and 90, exclusive",
+        low=-np.nextafter(90, 0),
+        high=np.nextafter(90, 0),
+    ),
+    # The groups scale tangential velocities by mu: at mu = 0 they no longer hold v1.
+    "friction": partial(
+        positive, allowed="finite numbers above 0 (without friction v1 stays as it is)"
+    ),
+    "rebound_velocity": finite,
     "mass": positive,
     "effective_radius": positive,
     "effective_modulus": positive,
+    "speed": positive,
+    "restitution": partial(
+        checked, allowed=f"numbers from {LEAST_RESTITUTION} to 1", low=LEAST_RESTITUTION, high=1
+    ),
+    "relaxation_time": not_negative,
+    "yield_pressure": positive,
+    "peak_force": positive,
+    "loss": _loss,
 }
-_IMPACT: dict[str, _Rule] = {**_CONTACT, "speed": positive}
-
-_Arguments = ParamSpec("_Arguments")
-_Result = TypeVar("_Result")
 
 
 def _formula(
-    result: str = "", least: float = LEAST, most: float = LARGEST, /, **rules: _Rule
+    result: str = "", least: float = LEAST, most: float = LARGEST, /, **own_rules: _Rule
 ) -> Callable[[Callable[_Arguments, _Result]], Callable[_Arguments, _Result]]:
-    """Decorator of a formula, which gets checked arrays of one shape for what its caller passes.
+    """Decorator of a formula: what callers pass is checked and becomes arrays of one shape.
 
-    `rules` are those of its arguments, in their order; one without a rule it gets as it is. Of a
-    tuple it gets the same type, of arrays. A `result` that has a name here must have a size from
-    `least` to `most`. What has no dimension is returned as a number.
+    A tuple becomes one of arrays. The formula runs without warnings of NumPy. If the `result` has a
+    name here, its size must lie between `least` and `most`. Scalars come from scalars.
     """
 
     def decorate(formula: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Result]:
         parameters = inspect.signature(formula).parameters.values()
-        names = {one.name: one.kind for one in parameters}
+        rules = {one.name: own_rules.get(one.name) or _RULES[one.name] for one in parameters}
         defaults = {one.name: one.default for one in parameters if one.default is not one.empty}
-        untyped: Callable[..., Any] = formula
+        known = {name: rules[name](name, value) for name, value in defaults.items()}
+        of_arrays: Callable[..., Any] = formula
 
         @wraps(formula)
         @quietly
         def call(*values: _Arguments.args, **named: _Arguments.kwargs) -> _Result:
-            given = {**dict(zip(names, values, strict=False)), **named}
+            given = {**dict(zip(rules, values, strict=False)), **named}
             arguments: dict[str, Any] = {**defaults, **given}
-            if len(given) < len(values) + len(named) or arguments.keys() != names.keys():
+            if len(given) < len(values) + len(named) or arguments.keys() != rules.keys():
                 return formula(*values, **named)  # Python says what is wrong with such a call
-            found = {name: rule(name, arguments[name]) for name, rule in rules.items()}
-            answer = untyped(**{**arguments, **_of_one_shape(found, arguments)})
+            found = {
+                name: rule(name, given[name]) if name in given else known[name]
+                for name, rule in rules.items()
+            }
+            answer = of_arrays(**{**arguments, **_of_one_shape(found, arguments)})
             if result:
                 in_range(result, answer, least, most)
             return _numbers(answer)
@@ -290,20 +312,21 @@ def _formula(
     return decorate
 
 
-def _of_one_shape(found: dict[str, Any], arguments: dict[str, Any]) -> dict[str, Any]:
-    """Broadcast what the rules return of arguments; fields of a tuple become such a tuple again."""
+def _of_one_shape(
+    found: dict[str, Array | dict[str, Array]], arguments: dict[str, Any]
+) -> dict[str, Any]:
+    """Broadcast what the rules return of arguments, and put fields into such tuples again."""
     named: dict[str, Array] = {}
-    for name, checked_value in found.items():
-        named |= checked_value if isinstance(checked_value, dict) else {name: checked_value}
+    for name, part in found.items():
+        named |= part if isinstance(part, dict) else {name: part}
     differ = len({array.shape for array in named.values()}) > 1
     arrays = iter(checks.broadcast(**named) if differ else named.values())
     alike: dict[str, Any] = {}
-    for name, checked_value in found.items():
-        if not isinstance(checked_value, dict):
+    for name, part in found.items():
+        if not isinstance(part, dict):
             alike[name] = next(arrays)
-        elif checked_value:  # a rigid counterbody has no fields: it stays None
-            fields_of_one = [next(arrays) for _ in checked_value]
-            alike[name] = tuple.__new__(type(arguments[name]), fields_of_one)
+        elif part:
+            alike[name] = tuple.__new__(type(arguments[name]), [next(arrays) for _ in part])
     return alike
 
 
@@ -319,7 +342,7 @@ def _arrays(*arguments: ArrayLike) -> tuple[Array, ...]:
     return cast(tuple[Array, ...], arguments)
 
 
-@_formula(radius=positive, density=positive)
+@_formula()
 def solid_sphere(radius: ArrayLike, density: ArrayLike) -> Body:
     """Body of a homogeneous sphere that strikes with its surface: k^2 = 2 r^2/5.
 
@@ -335,7 +358,7 @@ def solid_sphere(radius: ArrayLike, density: ArrayLike) -> Body:
     return Body(mass, r * np.sqrt(2 / 5), r)
 
 
-@_formula(radius=positive, mass=positive)
+@_formula()
 def thin_shell(radius: ArrayLike, mass: ArrayLike) -> Body:
     """Body of a thin spherical shell, such as a table-tennis ball: k^2 = 2 r^2/3.
 
@@ -350,7 +373,7 @@ def thin_shell(radius: ArrayLike, mass: ArrayLike) -> Body:
     return Body(m, r * np.sqrt(2 / 3), r)
 
 
-@_formula(radius=positive, mass=positive)
+@_formula()
 def disc(radius: ArrayLike, mass: ArrayLike) -> Body:
     """Body of a homogeneous disc or cylinder that strikes with its rim: k^2 = r^2/2.
 
@@ -365,7 +388,7 @@ def disc(radius: ArrayLike, mass: ArrayLike) -> Body:
     return Body(m, r * np.sqrt(1 / 2), r)
 
 
-@_formula(body=_body, other=_body)
+@_formula()
 def effective_masses(body: Body, other: Body = HALF_SPACE) -> tuple[Array, Array]:
     """Tangential and normal effective mass of two bodies, m1 and m2 [kg] (Eq. 2).
 
@@ -381,7 +404,7 @@ def effective_masses(body: Body, other: Body = HALF_SPACE) -> tuple[Array, Array
     return in_range("m1", smaller_mass / tangential), smaller_mass / normal
 
 
-@_formula("mass_ratio", 1.0, LARGEST_RATIO, body=_body, other=_body)
+@_formula("mass_ratio", 1.0, LARGEST_RATIO)
 def mass_ratio(body: Body, other: Body = HALF_SPACE) -> Array:
     """Mass ratio beta = m2/m1 of two bodies, at least 1 (Eq. 2).
 
@@ -410,7 +433,7 @@ def _scaled_inverse_masses(body: Body, other: Body) -> tuple[Array, Array, Array
     return smaller_mass, tangential, inverse + other_inverse
 
 
-@_formula("E*", material=_material, other=_material_or_rigid)
+@_formula("E*", other=_material_or_rigid)
 def effective_modulus(material: Material, other: Material | None = None) -> Array:
     """Effective modulus E* [Pa] of two elastic bodies: 1/E* = sum (1 - nu^2)/E over both.
 
@@ -424,7 +447,7 @@ def effective_modulus(material: Material, other: Material | None = None) -> Arra
     return 1 / _compliances(material, other)[0]
 
 
-@_formula(material=_material, other=_material_or_rigid)
+@_formula(other=_material_or_rigid)
 def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
     """Stiffness ratio of two elastic bodies in contact, normal over tangential.
 
@@ -443,7 +466,7 @@ def stiffness_ratio(material: Material, other: Material | None = None) -> Array:
     return tangential / normal / 4
 
 
-@_formula(material=_material, other=_material_or_rigid)
+@_formula(other=_material_or_rigid)
 def dundurs(material: Material, other: Material | None = None) -> Array:
     """Dundurs' second constant: how far pressure alone pushes two surfaces past each other.
 
@@ -489,7 +512,7 @@ def _compliances(material: Material, other: Material | None) -> tuple[Array, Arr
     return normal, tangential
 
 
-@_formula(radius=positive, other=_positive_or_infinite)
+@_formula(other=_positive_or_infinite)
 def effective_radius(radius: ArrayLike, other: ArrayLike = np.inf) -> Array:
     """Effective radius R [m] of two convex surfaces in contact: 1/R = sum 1/radius over both.
 
@@ -542,7 +565,7 @@ def contact(
     return Contact(mass, radius, effective_modulus(material, other_material))
 
 
-@_formula("peak force", **_IMPACT)
+@_formula("peak force")
 def hertz_peak_force(
     mass: ArrayLike, effective_radius: ArrayLike, effective_modulus: ArrayLike, speed: ArrayLike
 ) -> Array:
@@ -560,7 +583,7 @@ def hertz_peak_force(
     return (4 / 3 * modulus * np.sqrt(radius)) ** 0.4 * (1.25 * m2) ** 0.6 * v2**1.2
 
 
-@_formula("frequency", mass=positive, speed=positive, peak_force=positive)
+@_formula("frequency")
 def normal_frequency(mass: ArrayLike, speed: ArrayLike, peak_force: ArrayLike) -> Array:
     """Frequency Omega [rad/s] of the linear normal spring with this peak force [N] at this speed.
 
@@ -577,7 +600,7 @@ def normal_frequency(mass: ArrayLike, speed: ArrayLike, peak_force: ArrayLike) -
     return force / m2 / v2
 
 
-@_formula(**_IMPACT, relaxation_time=not_negative)
+@_formula()
 def viscous_restitution(
     mass: ArrayLike,
     effective_radius: ArrayLike,
@@ -631,7 +654,7 @@ def viscous_restitution(
     return np.maximum(kelvin_voigt.restitution(tau / unit), LEAST_RESTITUTION)
 
 
-@_formula("relaxation time", 0.0, **_IMPACT, restitution=_law_restitution)
+@_formula("relaxation time", 0.0)
 def relaxation_time(
     mass: ArrayLike,
     effective_radius: ArrayLike,
@@ -657,7 +680,7 @@ def relaxation_time(
     return np.where(e < 1, tau, 0.0)
 
 
-@_formula("yield speed", **_CONTACT, yield_pressure=positive)
+@_formula("yield speed")
 def yield_speed(
     mass: ArrayLike,
     effective_radius: ArrayLike,
@@ -689,7 +712,7 @@ def yield_speed(
     )
 
 
-@_formula("restitution", LEAST_RATIO, 1.0, **_IMPACT, yield_pressure=positive)
+@_formula("restitution", LEAST_RATIO, 1.0)
 def plastic_restitution(
     mass: ArrayLike,
     effective_radius: ArrayLike,
@@ -723,7 +746,7 @@ def plastic_restitution(
     return np.where(yield_share == 1, 1.0, np.minimum(yielding.restitution(yield_share), 1.0))
 
 
-@_formula("yield pressure", **_IMPACT, restitution=_law_restitution)
+@_formula("yield pressure")
 def yield_pressure(
     mass: ArrayLike,
     effective_radius: ArrayLike,
@@ -752,7 +775,7 @@ def yield_pressure(
     return 2 / np.pi * modulus * power**0.4
 
 
-@_formula("peak force", **_IMPACT, restitution=_law_restitution)
+@_formula("peak force")
 def peak_force(
     mass: ArrayLike,
     effective_radius: ArrayLike,
@@ -777,7 +800,7 @@ def peak_force(
     >>> [round(float(peak_force(**steel, restitution=0.5, loss=loss))) for loss in losses]
     [1347, 960]
     """
-    law = _LAWS[SPHERES[checks.loss(loss, SPHERES)]]
+    law = _LAWS[SPHERES[loss]]
     m2, radius, modulus, v2, e = _arrays(
         mass, effective_radius, effective_modulus, speed, restitution
     )
@@ -796,7 +819,7 @@ def unchecked_yield_speed(m2: Number, radius: Number, modulus: Number, pressure:
     return np.sqrt(16 / 15 * modulus / m2 * radius) * radius * relative_radius**2.5
 
 
-@_formula(tangential=finite, normal=finite, spin=finite, radius=not_negative)
+@_formula(radius=not_negative)
 def contact_velocity(
     tangential: ArrayLike, normal: ArrayLike, spin: ArrayLike, radius: ArrayLike
 ) -> tuple[Array, Array]:
@@ -815,7 +838,7 @@ def contact_velocity(
     return in_range("v1", along + r * turning, 0.0), v2.copy()
 
 
-@_formula("incidence", 0.0, v1=finite, v2=positive, friction=_friction)
+@_formula("incidence", 0.0)
 def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
     """Incidence of an impact from the velocity of the contact point: x = v1/(mu v2).
 
@@ -830,7 +853,7 @@ def incidence(v1: ArrayLike, v2: ArrayLike, friction: ArrayLike) -> Array:
     return v1 / v2 / mu
 
 
-@_formula("incidence", 0.0, theta_deg=_degrees, friction=_friction)
+@_formula("incidence", 0.0)
 def incidence_from_angle(theta_deg: ArrayLike, friction: ArrayLike) -> Array:
     """Incidence of an impact at an angle: x = tan(theta)/mu.
 
@@ -846,13 +869,7 @@ def incidence_from_angle(theta_deg: ArrayLike, friction: ArrayLike) -> Array:
     return np.tan(np.radians(theta)) / mu
 
 
-@_formula(
-    body=_body,
-    motion=_approaching,
-    friction=_friction,
-    rebound_velocity=finite,
-    restitution=_restitution,
-)
+@_formula(restitution=_any_restitution)
 def rebound_motion(
     body: Body,
     motion: Motion,
