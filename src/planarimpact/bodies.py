@@ -280,8 +280,9 @@ def _formula(
 ) -> Callable[[Callable[_Arguments, _Result]], Callable[_Arguments, _Result]]:
     """Decorator of a formula: what callers pass is checked and becomes arrays of one shape.
 
-    A tuple becomes one of arrays. The formula runs without warnings of NumPy. If the `result` has a
-    name here, its size must lie between `least` and `most`. Scalars come from scalars.
+    A tuple becomes one of arrays. The rule of an argument is that of `own_rules`, else of `_RULES`.
+    The formula runs without warnings of NumPy. If the `result` has a name here, its size must lie
+    between `least` and `most`. Scalars give scalars.
     """
 
     def decorate(formula: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Result]:
@@ -302,7 +303,7 @@ def _formula(
                 name: rule(name, given[name]) if name in given else known[name]
                 for name, rule in rules.items()
             }
-            answer = of_arrays(**{**arguments, **_of_one_shape(found, arguments)})
+            answer = of_arrays(**_of_one_shape(found, arguments))
             if result:
                 in_range(result, answer, least, most)
             return _numbers(answer)
@@ -315,13 +316,13 @@ def _formula(
 def _of_one_shape(
     found: dict[str, Array | dict[str, Array]], arguments: dict[str, Any]
 ) -> dict[str, Any]:
-    """Broadcast what the rules return of arguments, and put fields into such tuples again."""
+    """Arguments of a formula: what the rules found is broadcast, and fields are tuples again."""
     named: dict[str, Array] = {}
     for name, part in found.items():
         named |= part if isinstance(part, dict) else {name: part}
     differ = len({array.shape for array in named.values()}) > 1
     arrays = iter(checks.broadcast(**named) if differ else named.values())
-    alike: dict[str, Any] = {}
+    alike = dict(arguments)  # where the rules found nothing, they stay as they are
     for name, part in found.items():
         if not isinstance(part, dict):
             alike[name] = next(arrays)

@@ -1,5 +1,6 @@
 """Bodies and materials: known values, limits, conservation laws."""
 
+import inspect
 import re
 
 import numpy as np
@@ -108,6 +109,18 @@ LAWS = {
     "viscous": (bodies.viscous_restitution, bodies.relaxation_time),
     "plastic": (bodies.plastic_restitution, bodies.yield_pressure),
 }
+
+
+def test_all_laws_take_a_contact_first_in_one_order():
+    """By place a radius and a modulus, or a speed, could be swapped in silence."""
+    order = [*bodies.Contact._fields, "speed"]
+    assert order == ["mass", "effective_radius", "effective_modulus", "speed"]
+    functions = [getattr(bodies, name) for name in bodies.__all__]
+    taken = {f.__name__: [*inspect.signature(f).parameters] for f in functions if callable(f)}
+    laws = {name: names for name, names in taken.items() if {*names} & {*order[1:]}}
+    assert len(laws) == 9  # Contact among them
+    for names in laws.values():
+        assert names[: len({*names} & {*order})] == [name for name in order if name in names]
 
 
 def test_yield_begins_at_the_yield_speed():
