@@ -114,13 +114,11 @@ def test_a_row_is_what_collide_says_alone(law):
             assert found["energy_lost [J]"] == pytest.approx(energy, rel=1e-9)
         if law and alone.restitution > 0:
             radius = 0.01 if wall else bodies.effective_radius(0.01, 0.02)
-            contact = bodies.effective_masses(ball, other)[1], pair.effective_modulus, radius
+            contact = bodies.effective_masses(ball, other)[1], radius, pair.effective_modulus
             (name, value), speed = *law.items(), (before[2] - before[0]) @ normal
-            by_law = LAWS[name](speed, value, *contact)
+            by_law = LAWS[name](*contact, speed, value)
             assert found["restitution"] == pytest.approx(float(by_law), rel=1e-12)
-            force = bodies.peak_force(
-                contact[0], speed, *contact[1:], alone.restitution, str(pair.loss)
-            )
+            force = bodies.peak_force(*contact, speed, alone.restitution, str(pair.loss))
             assert found["peak_normal_force [N]"] == pytest.approx(float(force), rel=1e-9)
 
 

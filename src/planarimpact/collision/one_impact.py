@@ -64,16 +64,16 @@ def collide(
         curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
         if not curvature:
             return []
-        quantities = m2, modulus, 1 / curvature
+        quantities = m2, 1 / curvature, modulus
         if plastic:
             if yield_pressure > LARGEST_RATIO * modulus:
                 return []
-            share = bodies.unchecked_yield_speed(yield_pressure, *quantities) / v2
+            share = bodies.unchecked_yield_speed(*quantities, yield_pressure) / v2
             if share < LEAST_RATIO:
                 return []
             found = yielding.restitution(np.array(min(share, 1.0)))
         else:
-            tau = relaxation_time / bodies.time_unit(v2, *quantities)
+            tau = relaxation_time / bodies.time_unit(*quantities, v2)
             # Beyond the law its slowest contact, whose restitution the table does not cover.
             found = kelvin_voigt.restitution(np.array(min(tau, kelvin_voigt.SLOWEST)))
         e = min(float(found), 1.0)

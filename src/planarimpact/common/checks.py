@@ -36,7 +36,7 @@ default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid
 
 # Texts of a loss that is not said, and of missing values.
 NO_LOSS = "", "none", "None", "nan", "<NA>", "NaT"
-_PLAIN = int, float  # nothing is hidden in such a value
+_PLAIN = int, float, np.float64  # nothing is hidden in such a value
 _NUMBERS = *_PLAIN, np.integer, np.floating
 
 _DOWN = Context(prec=4, rounding=ROUND_DOWN)
@@ -118,6 +118,8 @@ def checked(
     """
     if open_low and low == 0:
         low, open_low = LEAST, False
+    if type(value) in _PLAIN and not open_low and low <= value <= high:  # type: ignore[operator]
+        return np.array(value, np.float64)  # in a tenth of the time of all that follows
     parts = () if type(value) in _PLAIN else [*_parts(value)]
     if any(map(_has_unit, parts)):
         raise InputError(f"{name} = {brief(value)} has a unit: give plain numbers, in SI units")

@@ -306,8 +306,8 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
             raise checks.InputError(
                 f"found.{name} = {value:g}: allowed is that of two such spheres, {float(own):g}"
             )
-    m2, modulus, effective = bodies.contact(sphere, material, sphere, material)
-    mass, force = float(m2), float(bodies.hertz_peak_force(m2, v2, modulus, effective))
+    both = bodies.contact(sphere, material, sphere, material)
+    mass, force = float(both.mass), float(bodies.hertz_peak_force(*both, speed=v2))
     lasts = 2 * hertz.COMPRESSION * hertz.PEAK_FORCE * mass * v2 / force
     # Stiffness and damping of linear springs, normal and tangential.
     kn = mass * (math.pi / lasts) ** 2
