@@ -19,7 +19,7 @@ import warnings
 import zlib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -51,6 +51,8 @@ CHUNK = 2**15
 LABEL = "id"
 # A name as similar as this to one that is known is a misspelling.
 CLOSE = 0.8
+# Of cells for which there is no header; headers have no line breaks.
+MORE = "\n"
 POINT = "; commas separate cells, and decimals have a point"
 
 
@@ -438,7 +440,7 @@ def solve_file(
     --------
     >>> import tempfile
     >>> folder = Path(tempfile.mkdtemp())
-    >>> _ = (folder / "in.csv").write_text(HELP.split("Example:")[1].replace("\\n  ", "\\n").strip())
+    >>> _ = (folder / "in.csv").write_text(HELP.split("Example:")[1].replace("  ", "").strip())
     >>> solve_file(folder / "in.csv", folder / "out.csv").rows
     1
     >>> (folder / "out.csv").read_text().splitlines()[1].split(",")[-5]
@@ -509,10 +511,10 @@ def _parts(source: str, chunk: int) -> Iterator[tuple["pd.DataFrame", dict[int, 
             # A column more than there are: only in rows with too many cells it has one.
             reader = pd.read_csv(
                 file,
-                names=[*names, ""],
+                names=[*names, MORE],
                 skiprows=1,
                 dtype=dict.fromkeys(own, str),
-                na_values={"": [""]},
+                na_values={MORE: [""]},
                 index_col=False,
                 low_memory=False,
                 chunksize=chunk,
@@ -524,7 +526,7 @@ def _parts(source: str, chunk: int) -> Iterator[tuple["pd.DataFrame", dict[int, 
                     part = next(reader, None)
                 if part is None:
                     return
-                wide = np.flatnonzero(part.pop("").notna()).tolist()
+                wide = np.flatnonzero(part.pop(MORE).notna()).tolist()
                 said = f"{len(names) + 1} cells where {len(names)} belong{POINT}"
                 yield part, dict.fromkeys(wide, said)
         except InputError:
@@ -560,31 +562,33 @@ def _writer(target: str) -> Iterator[Callable[["pd.DataFrame"], None]]:
     """A function that writes part after part of a table."""
     import pandas as pd
 
-    try:
-        import pyarrow as pa
-        import pyarrow.csv  # noqa: F401
-    except ImportError:
-        pa = None
     parts: list[Any] = []
-
-    def write(part: "pd.DataFrame") -> None:
-        if not parts:
-            part[:0].to_csv(file, index=False, lineterminator="\n")
-        parts[:] = [True]
-        if pa is None:
-            part.to_csv(file, index=False, header=False, lineterminator="\n")
-        else:  # in a tenth of the time
-            rows = pa.Table.from_pandas(part, preserve_index=False)
-            pa.csv.write_csv(rows, file, pa.csv.WriteOptions(include_header=False))
-
     with files.written(target) as partial:
         if target.lower().endswith(PARQUET):
             yield parts.append
             pd.concat(parts).to_parquet(partial, index=False)
-        else:
-            opener: Any = gzip.open if target.lower().endswith(GZIP) else open
-            with opener(partial, "wb") as file:
-                yield write
+            return
+        opener: Any = gzip.open if target.lower().endswith(GZIP) else open
+        with opener(partial, "wb") as file:
+
+            def write(part: "pd.DataFrame") -> None:
+                if not parts:
+                    parts.append(part[:0].to_csv(file, index=False, lineterminator="\n"))
+                _add(part, file)
+
+            yield write
+
+
+def _add(part: "pd.DataFrame", file: Any) -> None:
+    """Write rows as CSV: by Arrow in a tenth of the time, if it is there and knows the columns."""
+    try:
+        import pyarrow as pa
+        import pyarrow.csv
+
+        rows = pa.Table.from_pandas(part, preserve_index=False)
+        pyarrow.csv.write_csv(rows, file, pyarrow.csv.WriteOptions(include_header=False))
+    except (ImportError, ValueError, TypeError, NotImplementedError):
+        part.to_csv(file, index=False, header=False, lineterminator="\n")
 
 
 def _named(headers: Iterable[object]) -> dict[str, str]:
@@ -706,28 +710,25 @@ def _numbers(
 
 
 def _floats(cells: "pd.Series") -> Array:
-    """Numbers of a column; NaN where there is none."""
+    """Numbers of a column; NaN where there is none, or one that is too large for float64.
+
+    Text is a number in plain digits, and only the text inf is infinite.
+    """
     from pandas.api import types
 
     is_number = types.is_integer_dtype(cells) or types.is_float_dtype(cells)
     if is_number and getattr(cells.dtype, "itemsize", 16) <= 8:
         return cells.to_numpy(dtype=float, na_value=np.nan)
-    # Words, numbers that float64 may not hold, sparse or other objects: cell by cell.
-    return np.array([_number(cell) for cell in cells], dtype=float)
-
-
-def _number(cell: Any) -> float:
-    """The number in a cell, or of its text in plain digits, else NaN.
-
-    Only the text inf is infinite. A number that is too large for float64 is NaN.
-    """
-    text = str(cell)
-    refused = isinstance(cell, (bool, np.bool_, complex)) or "_" in text or not text.isascii()
-    try:
-        value = np.nan if refused or checks._has_unit(cell) else float(cell)
-    except (TypeError, ValueError, OverflowError):
-        return np.nan
-    return np.nan if np.isinf(value) and "inf" not in text.lower() else value
+    values = np.full(len(cells), np.nan)  # of words, long or sparse numbers, or other objects
+    for row, cell in enumerate(cells):
+        text, kind = str(cell), isinstance(cell, (bool, np.bool_, complex))
+        if kind or checks._has_unit(cell) or "_" in text or not text.isascii():
+            continue
+        with suppress(TypeError, ValueError, OverflowError):
+            values[row] = float(cell)
+        if np.isinf(values[row]) and "inf" not in text.lower():
+            values[row] = np.nan
+    return values
 
 
 def _impacts(
