@@ -156,16 +156,19 @@ def test_a_closed_standard_output_is_refused_in_one_line(command, tmp_path):
 @pytest.mark.parametrize("closed", ["2>&-", "<&-", "<&- 2>&-"])
 def test_other_closed_streams_change_nothing(closed, table, capfd):
     """What is told on standard error does not get into a table, nor does a file take its place."""
-    result = in_a_shell(f"scene {table} -", closed)
-    assert main(["scene", f"{table}", "-"]) == 0
-    assert (result.returncode, result.stdout) == (0, capfd.readouterr().out)
+    outs = [table.with_name(f"{name}.csv") for name in "ab"]
+    result = in_a_shell(f"scene {table} {outs[0]}", closed)
+    assert main(["scene", f"{table}", f"{outs[1]}"]) == 0 and result.returncode == 0
+    assert result.stdout.replace("a.csv", "b.csv") == capfd.readouterr().out
+    assert outs[0].read_text() == outs[1].read_text()
 
 
 @pytest.mark.parametrize("more", [">{}/out 2>/dev/full", "2>&1 >{}/out | :"])
 def test_that_nobody_reads_errors_changes_no_result(more, table, tmp_path):
     assert in_a_shell("rebound --incidence 1 --restitution 5", "2>/dev/full").returncode == 2
-    result = in_a_shell(f"scene {table} -", more.format(tmp_path))
-    assert result.returncode == 0 and len((tmp_path / "out").read_text().splitlines()) == 4
+    result = in_a_shell(f"scene {table} {tmp_path}/out.csv", more.format(tmp_path))
+    assert result.returncode == 0 and "3 impacts" in (tmp_path / "out").read_text()
+    assert len((tmp_path / "out.csv").read_text().splitlines()) == 4
 
 
 def test_a_terminal_of_ascii_shows_letters_as_codes(table):
