@@ -11,6 +11,7 @@ towards the surface and its spin, positive where it moves the contact point forw
 In space the spin is the right-handed vector of angular velocity.
 """
 
+import csv
 import difflib
 import gzip
 import os
@@ -19,7 +20,7 @@ import warnings
 import zlib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -119,7 +120,7 @@ class Result(NamedTuple):
     allowed: str = ""
 
 
-def _words(codes: Array, words: Iterable[str]) -> Any:
+def _words(codes: Any, words: Iterable[str]) -> Any:
     """Words by their places, -1 where there is none: a column of few words takes little memory."""
     import pandas as pd
 
@@ -441,38 +442,41 @@ def solve_file(
     >>> import tempfile
     >>> folder = Path(tempfile.mkdtemp())
     >>> _ = (folder / "in.csv").write_text(HELP.split("Example:")[1].replace("  ", "").strip())
-    >>> solve_file(folder / "in.csv", folder / "out.csv").rows
-    1
-    >>> (folder / "out.csv").read_text().splitlines()[1].split(",")[-5]
-    '2.5'
+    >>> report = solve_file(folder / "in.csv", folder / "out.csv")
+    >>> report.rows, report.bad, (folder / "out.csv").read_text()[:10]
+    (1, [], 'radius [m]')
     """
-    source, target = str(source), str(target)
+    source, target = os.fspath(source), os.fspath(target)
     for path in (source, target):
         if not path.lower().endswith(KINDS):
             shown = checks.in_ascii(path)
             raise InputError(f"{shown}: allowed are names that end in {', '.join(KINDS)}")
-    pd = _packages(parquet=any(path.lower().endswith(PARQUET) for path in (source, target)))
+    _packages(parquet=any(path.lower().endswith(PARQUET) for path in (source, target)))
     report = Report(tolerance, loss)
     chunk = checks.count("chunk", chunk, 1)
-    lists = [f"{target}.bad.csv"] if skip_bad else []
-    for path in (target, *lists):
+    written = [target, f"{target}.bad.csv"] if skip_bad else [target]
+    for path in written:
         if os.path.exists(path) and os.path.samefile(path, source):
             raise InputError(f"{path}: it is the table that is read; the result needs another name")
+
+    def solved() -> Iterator["pd.DataFrame"]:
+        for table, problems in _parts(source, chunk):
+            after = report._solved(table, problems, skip_bad)
+            numbers = [text for name, text in _named(table.columns).items() if name != "loss"]
+            # A column has one type in all parts, whatever a part has in it.
+            yield after.astype(dict.fromkeys(numbers, float))
+        if not report.rows:
+            raise InputError("it has a header, but no rows")
+
     with ExitStack() as stack:
-        partial = [stack.enter_context(files.written(path)) for path in lists]
-        write = stack.enter_context(_writer(target))
+        partial, *lists = [stack.enter_context(files.written(path)) for path in written]
         try:
-            for table, problems in _parts(source, chunk):
-                after = report._solved(table, problems, skip_bad)
-                # A column has one type in all parts, whatever a part has in it.
-                numbers = _named(table.columns).items()
-                write(after.astype({text: float for name, text in numbers if name != "loss"}))
-            if not report.rows:
-                raise InputError("it has a header, but no rows")
+            _write(solved(), partial, target.lower())
         except InputError as error:
             raise InputError(f"{checks.in_ascii(source)}: {error}") from None
-        for path in partial:  # also without a bad row: an old list is not about the new result
-            pd.DataFrame(report.bad, columns=["row", "problem"]).to_csv(path, index=False)
+        for list_of_bad in lists:  # also an empty one: an old list is not about the new result
+            with open(list_of_bad, "w", encoding="utf-8", newline="") as file:
+                csv.writer(file, lineterminator="\n").writerows([("row", "problem"), *report.bad])
     return report
 
 
@@ -497,7 +501,7 @@ def _slices(table: "pd.DataFrame", chunk: int) -> Iterator[tuple["pd.DataFrame",
 
 def _parts(source: str, chunk: int) -> Iterator[tuple["pd.DataFrame", dict[int, str]]]:
     """Parts of a table, and `{position: message}` of rows that have another number of cells."""
-    pd, names = _packages(), []
+    pd, names = _packages(), list[str]()
     with open(source, "rb") as file:
         try:
             if source.lower().endswith(PARQUET):
@@ -505,7 +509,10 @@ def _parts(source: str, chunk: int) -> Iterator[tuple["pd.DataFrame", dict[int, 
                 return
             given: dict[str, Any] = {"header": None, "keep_default_na": False}
             given["compression"] = "gzip" if source.lower().endswith(GZIP) else None
-            names = _header(pd.read_csv(file, nrows=1, dtype=str, **given).iloc[0])
+            cells = pd.read_csv(file, nrows=1, dtype=str, **given).iloc[0].tolist()
+            if len(cells) == 1 and {";", "\t"} & {*cells[0]}:
+                raise InputError(f"the header is one cell{POINT}")
+            names = [" ".join(cell.split()) for cell in cells]
             own = set(names) - {text for name, text in _named(names).items() if name != "loss"}
             file.seek(0)
             # A column more than there are: only in rows with too many cells it has one.
@@ -537,15 +544,6 @@ def _parts(source: str, chunk: int) -> Iterator[tuple["pd.DataFrame", dict[int, 
             raise InputError(_said(error, len(names))) from None
 
 
-def _header(cells: Iterable[str]) -> list[str]:
-    """Names of columns, without the blanks and line breaks around words."""
-    names = [" ".join(cell.split()) for cell in cells]
-    for mark in ";\t":
-        if len(names) == 1 and mark in cells[0]:
-            raise InputError(f"{mark!a} stands between the cells of the header{POINT}")
-    return names
-
-
 def _said(error: Exception, cells: int) -> str:
     """What pandas says of a file that is no table, in one line."""
     if found := re.search(r"Expected \d+ fields in line (\d+), saw (\d+)", str(error)):
@@ -557,38 +555,27 @@ def _said(error: Exception, cells: int) -> str:
     return checks.in_ascii(words.removeprefix("Error tokenizing data. C error: ")) + hint
 
 
-@contextmanager
-def _writer(target: str) -> Iterator[Callable[["pd.DataFrame"], None]]:
-    """A function that writes part after part of a table."""
+def _write(parts: Iterator["pd.DataFrame"], path: Path, kind: str) -> None:
+    """Write the parts of a table to a file of this kind."""
     import pandas as pd
 
-    parts: list[Any] = []
-    with files.written(target) as partial:
-        if target.lower().endswith(PARQUET):
-            yield parts.append
-            pd.concat(parts).to_parquet(partial, index=False)
-            return
-        opener: Any = gzip.open if target.lower().endswith(GZIP) else open
-        with opener(partial, "wb") as file:
+    if kind.endswith(PARQUET):
+        pd.concat([*parts]).to_parquet(path, index=False)
+        return
+    opener: Any = gzip.open if kind.endswith(GZIP) else open
+    with opener(path, "wb") as file:
+        plain = {"index": False, "lineterminator": "\n"}
+        for number, part in enumerate(parts):
+            if not number:
+                part[:0].to_csv(file, **plain)
+            try:  # Arrow is not needed, but writes text in a tenth of the time
+                import pyarrow as pa
+                import pyarrow.csv
 
-            def write(part: "pd.DataFrame") -> None:
-                if not parts:
-                    parts.append(part[:0].to_csv(file, index=False, lineterminator="\n"))
-                _add(part, file)
-
-            yield write
-
-
-def _add(part: "pd.DataFrame", file: Any) -> None:
-    """Write rows as CSV: by Arrow in a tenth of the time, if it is there and knows the columns."""
-    try:
-        import pyarrow as pa
-        import pyarrow.csv
-
-        rows = pa.Table.from_pandas(part, preserve_index=False)
-        pyarrow.csv.write_csv(rows, file, pyarrow.csv.WriteOptions(include_header=False))
-    except (ImportError, ValueError, TypeError, NotImplementedError):
-        part.to_csv(file, index=False, header=False, lineterminator="\n")
+                rows = pa.Table.from_pandas(part, preserve_index=False)
+                pyarrow.csv.write_csv(rows, file, pyarrow.csv.WriteOptions(include_header=False))
+            except (ImportError, ValueError, TypeError, NotImplementedError):  # or what it lacks
+                part.to_csv(file, header=False, **plain)
 
 
 def _named(headers: Iterable[object]) -> dict[str, str]:
@@ -741,12 +728,13 @@ def _impacts(
     while True:
         good = np.delete(np.arange(values["radius"].size), list(problems))
         try:
-            impacts, *more = _of_good({name: column[good] for name, column in values.items()})
+            columns = {name: column[good] for name, column in values.items()}
+            impacts, peak, coupling = _of_good(columns)
             found = mechanics.problems(impacts) | mechanics.problems_of_normals(impacts.normal)
         except bodies.OutOfRange as error:
             found = error.messages
         if not found:
-            return impacts, *more, good
+            return impacts, peak, coupling, good
         problems |= {int(good[i]): message for i, message in found.items()}
 
 
@@ -812,10 +800,11 @@ def _peak_normal(impacts: Impacts, modulus: Array, radius: Array) -> Array:
 def _after(solved: Solved, names: dict[str, str]) -> dict[str, Any]:
     """The columns that are added to those of a table, by their headers."""
     impacts, result = solved.impacts, dict[str, Any]()
-    states = mechanics.after(impacts, solved.answers.change)
-    for who, (velocity, spin) in zip(("", "other_"), states, strict=False):
-        if who and not {"other_density", "other_mass"} & set(names):
-            continue
+    body, other, _ = mechanics.after(impacts, solved.answers.change)
+    states = {"": body}
+    if {"other_density", "other_mass"} & set(names):
+        states["other_"] = other
+    for who, (velocity, spin) in states.items():
         plane = dict(zip(PLANE, (velocity[0], -velocity[2], -spin[1]), strict=True))
         columns = plane if "spin" in names else dict(zip(SPACE, [*velocity, *spin], strict=True))
         result |= {header(f"{who}{name}", "_after"): v for name, v in columns.items()}
