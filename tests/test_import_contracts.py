@@ -84,8 +84,6 @@ PUBLIC_MODULES = {
     "models.laws",
     "models.timestep",
     "noncollinear.rigid",
-    "scene.columns",
-    "scene.files",
     "collision.mechanics",  # these three solve scenes
     "collision.model_form",
     "collision.methods",

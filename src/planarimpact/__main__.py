@@ -18,10 +18,10 @@ from planarimpact import (
     fit,
     models,
 )
+from planarimpact import scene as tables
 from planarimpact.common import checks
 from planarimpact.common.arrays import ArrayLike
 from planarimpact.common.results import Regime
-from planarimpact.scene import columns as scene_columns
 
 ABOUT = """
 What happens when a rough, elastic body strikes a surface at an angle?
@@ -140,29 +140,19 @@ def _fit(options: argparse.Namespace) -> None:
 
 def _scene(options: argparse.Namespace) -> None:
     """Solve a table, and say what became of its rows."""
+    paths = options.input, options.output
+    settings = options.tolerance, options.loss, options.skip_bad, options.chunk
     try:
-        from planarimpact.scene import files as tables
+        report = tables.solve_file(*paths, *settings)
     except ImportError as error:
         raise checks.InputError(str(error)) from None
-    solver = tables.solve(
-        options.input,
-        options.output,
-        options.tolerance,
-        options.skip_bad,
-        options.loss,
-        notice=_tell,
-    )
-    # Nothing else may stand in a table on standard output.
-    stream = options.output == tables.STREAM
-    tell = _tell if stream else print
-    tell(f"{options.output}: {solver.rows - len(solver.bad)} impacts")
-    if stream:
-        for row, problem in solver.bad:
-            tell(f"row {row}, left out: {problem}")
-    elif solver.bad:
-        tell(f"{options.output}.bad.csv: {len(solver.bad)} bad rows left out")
+    if report.own:
+        _tell(f"not known, and carried over as they are: columns {', '.join(report.own)}")
+    print(f"{options.output}: {report.rows - len(report.bad)} impacts")
+    if report.bad:
+        print(f"{options.output}.bad.csv: {len(report.bad)} bad rows left out")
     if options.explain:
-        tell(solver.explain())
+        print(report.explain())
 
 
 def _models(options: argparse.Namespace) -> None:
@@ -262,18 +252,16 @@ def _parser() -> argparse.ArgumentParser:
         "solve a table of impacts",
         "One impact a row, each by a formula, the table of spheres or, some milliseconds each, the "
         "continuum. --explain says how many impacts each of them solved.",
-        epilog=scene_columns.HELP,
+        epilog=tables.HELP,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     scene.add_argument(
         "input",
-        help="the table: a name that ends in .csv, .csv.gz or .parquet, or - for standard input, "
-        "which is CSV",
+        help="the table: a name that ends in .csv, .csv.gz or .parquet",
     )
     scene.add_argument(
         "output",
-        help="the same table with the state after each impact: names as for the input, or - for "
-        "standard output",
+        help="the same table with the state after each impact: names as for the input",
     )
     scene.add_argument(
         "--tolerance",
@@ -294,8 +282,14 @@ def _parser() -> argparse.ArgumentParser:
     scene.add_argument(
         "--skip-bad",
         action="store_true",
-        help="leave bad rows out, and list them by number in OUTPUT.bad.csv, or on standard error "
-        "where OUTPUT is -",
+        help="leave bad rows out, and list them by number in OUTPUT.bad.csv",
+    )
+    scene.add_argument(
+        "--chunk",
+        type=_number,
+        default=tables.CHUNK,
+        metavar="ROWS",
+        help="rows of CSV that are in the memory at one time [%(default)s]",
     )
 
     fitted = command(

@@ -95,7 +95,7 @@ update_wrapper(decorated, half).__qualname__ = "decorated"  # as by its `@`
 OBJECTS = [
     *(call() for call in CALLS),
     *(collide(pair, [0, 0, 1], BALL, [1, 0, -3.0], [0, 2.0, 0]) for pair in (PAIR[0], PAIR, MANY)),
-    *(STEEL, BALL, PAIR, scene.Solver(0.1, "viscous"), bodies.contact(BALL, STEEL)),
+    *(STEEL, BALL, PAIR, scene.Report(0.1, "viscous"), bodies.contact(BALL, STEEL)),
     *(fit.fit("yade", incidence_max=2.0), *fit.CODES.values(), *collision.presets().values()),
     *(*models.MODELS.values(), models.Model("half", laws.of_velocity(half)), decorated),
     *(InputError("refused"), bodies.OutOfRange({1: "too large"}), ConvergenceError("given up")),
