@@ -792,7 +792,7 @@ def _peak_normal(impacts: Impacts, modulus: Array, radius: Array) -> Array:
         if which.any():
             # All impacts are computed, so that a refusal has the index of its row.
             e = np.where(which, impacts.restitution, 1.0)
-            force = bodies.peak_force(impacts.m2, speed, modulus, radius, e, loss.name)
+            force = bodies.peak_force(impacts.m2, radius, modulus, speed, e, loss.name)
             peak = np.where(which, force, peak)
     return peak
 
