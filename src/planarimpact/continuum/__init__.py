@@ -177,7 +177,7 @@ def rebound(
             if is_elastic or kind is None:
                 solved = elastic.rebound(*groups, allowed[rows])
             else:
-                solved = inelastic.rebound(*groups, e[rows], allowed[rows], kind)
+                solved = inelastic.rebound(*groups, e[rows], kind, allowed[rows])
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 

@@ -69,7 +69,7 @@ class Path(NamedTuple):
 
 
 def rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: Array, kind: type[NormalMotion]
+    x: Array, beta: Array, zeta2: Array, e: Array, kind: type[NormalMotion], tolerance: Array
 ) -> tuple[Array, Array, Array, Integers, Integers]:
     """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
 
@@ -78,7 +78,7 @@ def rebound(
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, np.array([1e-5]), MOTIONS[VISCOUS])[0].round(4)
+    >>> rebound(*groups, MOTIONS[VISCOUS], np.array([1e-5]))[0].round(4)
     array([-0.4805])
     """
     motion = kind(e)
