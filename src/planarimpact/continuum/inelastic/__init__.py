@@ -211,7 +211,7 @@ def contact(
 
 
 def _summary(impacts: Path) -> Solved:
-    """Raw velocity, peak and work; counts of gross slips after stick and of reversals; ones.
+    """Answers whose values are velocity, peak friction and work.
 
     How near one gross slip more or less is, is not known here: 1 stands for it. So only a change of
     the count tells `refinement.refine` that a gross slip came or went.
@@ -221,4 +221,4 @@ def _summary(impacts: Path) -> Solved:
     slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
     counts = np.stack([slips, refinement.sign_changes(impacts.friction_force)])
     values = np.stack([impacts.velocity[-1], impacts.peak, impacts.work])
-    return values, counts, np.ones(slips.size)
+    return Solved(values, counts, np.ones(slips.size))
