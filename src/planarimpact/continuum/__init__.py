@@ -10,6 +10,8 @@ Gross slip from the start of contact needs no steps: its closed form is exact. S
 slide throughout.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
