@@ -28,6 +28,7 @@ from planarimpact.continuum import micro_slip
 from planarimpact.models import laws
 from planarimpact.noncollinear import rigid
 from planarimpact.normal_impact import hertz
+from planarimpact.spheres import table
 
 WIDE = np.array([1e-300, 0.0, 0.7, 2.3, 8.0, 1e100])
 COARSE = {f"continuum{loss}": {"tolerance": 0.1} for loss in ("", ".viscous", ".plastic")}
@@ -140,3 +141,10 @@ def test_losses_may_be_a_column_of_pandas(kind):
         2.0, restitution=[0.8, 1.0, 0.8], loss=["plastic", "viscous", "viscous"]
     )
     assert to_the_bit(partial(spheres.rebound, 2.0, **groups)) == to_the_bit(lambda: wanted)
+
+
+def test_the_table_of_spheres_indexes_with_the_integers_of_the_platform(monkeypatch):
+    """Its files have int64, which NumPy does not cast to an index on 32 bits (Pyodide)."""
+    monkeypatch.setattr(np, "intp", np.int32)
+    panels = table.shipped.__wrapped__("coarse").panels.values()
+    assert {panel.intervals.dtype for panel in panels} == {np.dtype(np.int32)}

@@ -10,6 +10,8 @@ Gross slip from the start of contact needs no steps: its closed form is exact. S
 slide throughout.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
@@ -177,7 +179,7 @@ def rebound(
             if is_elastic or kind is None:
                 solved = elastic.rebound(*groups, allowed[rows])
             else:
-                solved = inelastic.rebound(*groups, e[rows], allowed[rows], kind)
+                solved = inelastic.rebound(*groups, e[rows], kind, allowed[rows])
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 

@@ -6,6 +6,8 @@ Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; Merc
 `data/lammps`; nothing here runs the other two.
 """
 
+from __future__ import annotations
+
 import math
 import re
 from collections.abc import Mapping

@@ -9,6 +9,8 @@ leave this out. Normal and lever arm may cancel: for steel beads in LAMMPS, at m
 2.5, each alone costs 0.7 d/R, both together 0.2 d/R.
 """
 
+from __future__ import annotations
+
 from planarimpact import bodies
 from planarimpact.common import checks
 from planarimpact.common.arrays import ArrayLike

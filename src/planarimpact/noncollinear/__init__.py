@@ -15,6 +15,8 @@ kappa stiffness, zeta^2 stiffness ratio; 1/m1, c and 1/m2 the inverse mass; V = 
 beta = m2/m1 in the solver's units.
 """
 
+from __future__ import annotations
+
 import warnings
 from typing import Any, NamedTuple
 

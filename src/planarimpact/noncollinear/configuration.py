@@ -8,6 +8,8 @@ contact point of positive depth in the tangential direction. Friction and normal
 where they oppose positive velocities of the (first) body.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -25,6 +25,8 @@ Symbols: v1, v2 tangential and normal velocity, 1/m1, c and 1/m2 the inverse mas
 restitution, beta = m2/m1, C = m2 c.
 """
 
+from __future__ import annotations
+
 from enum import StrEnum
 from typing import NamedTuple
 
