@@ -56,6 +56,7 @@ speed, and then e falls with speed.
 """
 
 import inspect
+import math
 from collections.abc import Callable, Iterable
 from functools import partial, wraps
 from typing import Any, NamedTuple, ParamSpec, TypeAlias, TypeVar, cast
@@ -253,8 +254,8 @@ _RULES: dict[str, _Rule] = {
     "theta_deg": partial(
         checked,
         allowed="degrees between -90 and 90, exclusive",
-        low=-np.nextafter(90, 0),
-        high=np.nextafter(90, 0),
+        low=-math.nextafter(90, 0),
+        high=math.nextafter(90, 0),
     ),
     # The groups scale tangential velocities by mu: at mu = 0 they no longer hold v1.
     "friction": partial(
@@ -558,6 +559,7 @@ def contact(
     planarimpact.InputError: other_material: missing, as the other body has a finite mass
     """
     _, mass = effective_masses(body, other)
+    _material_or_rigid("other_material", other_material)
     if other_material is None and np.isfinite(other.mass).any():
         raise checks.InputError("other_material: missing, as the other body has a finite mass")
     radius = radius_of_two(body.radius, other.radius)

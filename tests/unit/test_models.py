@@ -100,12 +100,6 @@ def test_a_second_code_has_measured_the_errors_of_every_model():
     assert known == {model.name for model in MODELS if model.cost != "table"} - {"continuum"}
 
 
-def test_the_reference_is_a_continuum():
-    assert models.reference(1, "plastic") == models.reference(1.0) == "continuum"
-    for loss in ("viscous", "plastic"):
-        assert models.reference(0.999, loss) == f"continuum.{loss}" in models.MODELS
-
-
 @pytest.mark.parametrize("x", [0.5, 2.0, 4.0, 9.0])
 def test_spread_of_uncertain_inputs_is_that_of_random_ones(x):
     """40 000 random e and mu: their root mean square is known to 0.4 %."""

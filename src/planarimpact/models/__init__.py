@@ -23,7 +23,7 @@ import numpy as np
 from planarimpact import continuum, lumped, rigid, spheres
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
-from planarimpact.common.losses import LOSSES, LUMPED, SPHERES, Loss
+from planarimpact.common.losses import LOSSES, LUMPED, SPHERES
 from planarimpact.common.results import Rebound
 from planarimpact.models import laws, timestep
 
@@ -184,46 +184,6 @@ def _elastic(
     return solve(*groups, **settings)
 
 
-def _stepped(name: str, law: timestep.Law, valid: str, source: str) -> Model:
-    return Model(
-        f"timestep.{name}",
-        partial(timestep.rebound, law),
-        {"steps": timestep.STEPS},
-        "steps",
-        valid=valid,
-        source=source,
-        loss="hysteretic",
-    )
-
-
-def _lossy(
-    solve: Callable[..., Rebound], cost: str, settings: dict[str, float], loss: Loss
-) -> Model:
-    return Model(
-        f"{loss.model}.{loss.name}",
-        partial(solve, loss=loss.name, **settings),
-        settings,
-        cost,
-        (loss.least_restitution, 1.0),
-        loss.valid,
-        loss.source,
-        loss.name,
-    )
-
-
-def _tabled_continuum(loss: Loss) -> Model:
-    return Model(
-        f"spheres.{loss.name}",
-        partial(spheres.rebound, loss=loss.name),
-        cost="table",
-        restitution=(spheres.LEAST_RESTITUTION, 1.0),
-        valid=f"continuum.{loss.name} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, and "
-        f"m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
-        source="solved by this package, planarimpact.continuum",
-        loss=loss.name,
-    )
-
-
 _ELASTIC = (1.0, 1.0)
 _STEPPED = "fixed time step, as discrete-element codes have it"
 _IMPULSES = "impulses alone: no forces, no order of stick and slip"
@@ -263,24 +223,45 @@ MODELS = {
             "e = 1 only",
             source="Stronge 1994",
         ),
-        *(_lossy(lumped.rebound, "phases", {}, loss) for loss in LUMPED.values()),
-        _stepped(
-            "linear",
-            timestep.LINEAR,
-            f"linear spring and slider, {_STEPPED}; tends to the lumped model",
-            "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
+        *(
+            Model(
+                f"lumped.{name}",
+                partial(lumped.rebound, loss=name),
+                cost="phases",
+                restitution=(loss.least_restitution, 1.0),
+                valid=loss.valid,
+                source=loss.source,
+                loss=name,
+            )
+            for name, loss in LUMPED.items()
         ),
-        _stepped(
-            "mindlin",
-            timestep.MINDLIN,
-            f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
-            "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
+        Model(
+            "timestep.linear",
+            partial(timestep.rebound, timestep.LINEAR),
+            {"steps": timestep.STEPS},
+            "steps",
+            valid=f"linear spring and slider, {_STEPPED}; tends to the lumped model",
+            source="P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
+            loss="hysteretic",
         ),
-        _stepped(
-            "mindlin_rescaled",
-            timestep.MINDLIN_RESCALED,
-            "as timestep.mindlin, the force rescaled with the radius of contact on unloading",
-            "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
+        Model(
+            "timestep.mindlin",
+            partial(timestep.rebound, timestep.MINDLIN),
+            {"steps": timestep.STEPS},
+            "steps",
+            valid=f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
+            source="R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
+            loss="hysteretic",
+        ),
+        Model(
+            "timestep.mindlin_rescaled",
+            partial(timestep.rebound, timestep.MINDLIN_RESCALED),
+            {"steps": timestep.STEPS},
+            "steps",
+            valid="as timestep.mindlin, the force rescaled with the radius of contact on unloading",
+            source="C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, "
+            "mindlin_rescale/force",
+            loss="hysteretic",
         ),
         Model(
             "continuum",
@@ -288,38 +269,35 @@ MODELS = {
             {"tolerance": continuum.ELASTIC_TOLERANCE},
             "steps",
             _ELASTIC,
-            "elastic spheres with micro-slip, to a tolerance; e = 1 only",
-            "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of Dimensionality "
-            "Reduction in Contact Mechanics and Friction, Springer 2015",
+            valid="elastic spheres with micro-slip, to a tolerance; e = 1 only",
+            source="N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of "
+            "Dimensionality Reduction in Contact Mechanics and Friction, Springer 2015",
         ),
         *(
-            _lossy(
-                continuum.rebound,
-                "steps and springs",
+            Model(
+                f"continuum.{name}",
+                partial(continuum.rebound, loss=name),
                 {"tolerance": continuum.LOSSY_TOLERANCE},
-                loss,
+                "steps and springs",
+                (loss.least_restitution, 1.0),
+                valid=loss.valid,
+                source=loss.source,
+                loss=name,
             )
-            for loss in SPHERES.values()
+            for name, loss in SPHERES.items()
         ),
-        *map(_tabled_continuum, SPHERES.values()),
+        *(
+            Model(
+                f"spheres.{name}",
+                partial(spheres.rebound, loss=name),
+                cost="table",
+                restitution=(spheres.LEAST_RESTITUTION, 1.0),
+                valid=f"continuum.{name} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, "
+                f"and m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
+                source="solved by this package, planarimpact.continuum",
+                loss=name,
+            )
+            for name in SPHERES
+        ),
     )
 }
-
-
-def reference(restitution: float, loss: str | None = None) -> str:
-    """Name of the model that others are measured against: a continuum.
-
-    It is elastic for e = 1. Below, `loss` names which one, "viscous" or "plastic", and `InputError`
-    that it is missing or another word. If the loss is not known, the error is up to the distance
-    between the two lossy ones. Arguments and errors: `planarimpact.models`.
-
-    Examples
-    --------
-    >>> reference(1.0), reference(0.9, "viscous"), reference(0.9, "plastic")
-    ('continuum', 'continuum.viscous', 'continuum.plastic')
-    """
-    if loss is None:
-        checks.require_loss(restitution, SPHERES)
-        return "continuum"
-    checks.loss(loss, SPHERES)
-    return "continuum" if np.all(checks.restitution(restitution) == 1) else f"continuum.{loss}"

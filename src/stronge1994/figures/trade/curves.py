@@ -199,8 +199,7 @@ def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: str
     >>> float(reference(np.array([8.0]), groups, 1e-3, "plastic").velocity[0])
     2.75
     """
-    name = models.reference(groups["restitution"], loss or None)
-    return models.rebound(name, x, **groups, tolerance=tolerance)
+    return continuum.rebound(x, **groups, loss=loss or None, tolerance=tolerance)
 
 
 def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
