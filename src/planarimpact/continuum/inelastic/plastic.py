@@ -252,18 +252,19 @@ class PlasticSprings(Springs):
         count = min(len(limit), len(self._density))
         limits = self._limit[:count], limit[:count]
         early, late = (rate * step for _, rate in (start, end))
-        paces, approaches = motion.velocity[k - 1 : k + 1], motion.approach[k - 1 : k + 1]
-        middle = cubics.between(*approaches, *(step * paces), 0.5), (paces[0] + paces[1]) / 2
-        first, last = flow = self._flow(k, middle[0])
+        pace, later_pace = motion.velocity[k - 1 : k + 1]
+        since, until = motion.approach[k - 1 : k + 1]
+        approach = cubics.between(since, until, step * pace, step * later_pace, 0.5)
+        first, last = flow = self._flow(k, approach)
         # The density without slip, half a step later and at the end of the step.
         halfway = _trial(self._density[:count], first, early, (early + late) / 2)
         unlimited = _trial(halfway, last, (early + late) / 2, late)
         slips = np.zeros(unlimited.shape, dtype=bool)
         between: Array | None = None
-        slowing = (paces[1] - paces[0]) * step
+        slowing = (later_pace - pace) * step
         for side, which in _turning(early, late, slowing, limits, flow):
             if between is None:
-                between = motion.limit_at(*middle, count)
+                between = motion.limit_at(approach, (pace + later_pace) / 2, count)
             decay, half_decay = np.exp(-(first + last)[which]), np.exp(-last[which])
             at_start = decay * (side * self._density[:count, which] - limits[0][:, which])
             at_middle = half_decay * (side * halfway[:, which] - between[:, which])
