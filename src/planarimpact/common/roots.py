@@ -76,7 +76,7 @@ def crossing(
     array([1.41421356, 3.        ])
     """
     place, width = (high if start is None else start).copy(), np.maximum(high - low, 0.0)
-    index = np.arange(place.size)
+    index: Integers = np.arange(place.size)
     if unguarded:
         place, index = _unguarded(function, low, high, place, width, unguarded)
         low, high, width = low[index], high[index], width[index]
