@@ -115,10 +115,10 @@ def refine(
         # Each turn solves the impacts that remain with twice the steps, and estimates the error. An
         # impact leaves when it meets the tolerance or when no number of steps up to `most` can
         # help.
-        solved = integrate(tuple(group[todo] for group in groups), steps)
+        fine, number, near = integrate(tuple(group[todo] for group in groups), steps)
         if steps == first:
-            known = _Known(len(solved.values), x.size)
-        estimate = safety * known.improve(todo, solved)
+            known = _Known(len(fine), x.size)
+        estimate = safety * known.improve(todo, fine, number, near)
         resolved = steps >= needed[todo]
         worst = estimate[:2].max(axis=0)  # NaN while there is no estimate yet
         allowed = tolerance[todo]
@@ -126,7 +126,7 @@ def refine(
         # More steps do not help an answer that is not finite. An estimate says what more steps can
         # do once the steps resolve the contact at all four levels that it compares.
         sure = (steps >= 8 * needed[todo]) | (2 * steps > most)
-        beyond = ~np.isfinite(solved.values).all(axis=0) | (
+        beyond = ~np.isfinite(fine).all(axis=0) | (
             sure & ~settled & ~in_reach(worst, allowed, steps, most)
         )
         if beyond.any() and not message:
@@ -156,9 +156,8 @@ class _Known:
         self._coarse, self._change = np.full((2, k, n), np.nan)
         self._nearest = np.full(n, np.nan)
 
-    def improve(self, which: Integers, solved: Solved) -> Array:
-        """Take answers to some impacts with twice the steps, and estimate their errors, (k, m)."""
-        fine, number, near = solved
+    def improve(self, which: Integers, fine: Array, number: Integers, near: Array) -> Array:
+        """Take some impacts, `Solved` with twice the steps, and estimate their errors, (k, m)."""
         correction = (fine - self._coarse[:, which]) / 3
         better = fine + correction
         changed = np.abs(better - self.values[:, which])

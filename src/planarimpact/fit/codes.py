@@ -349,6 +349,6 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
         "gt": found.stiffness * young / (1 - nu**2),  # 2 E* times the share
         "multiple": found.damping / own_damping if own_damping else 0.0,
         "strong": strong,
-        "wall_e": timestep.restitution(law, at_wall, round(WALL * timestep.DASHPOT_STEPS)),
+        "wall_e": timestep.restitution_after(law, at_wall, round(WALL * timestep.DASHPOT_STEPS)),
         **{at + name: factor * linear[name] for at, factor in factors.items() for name in linear},
     }

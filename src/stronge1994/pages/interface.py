@@ -29,7 +29,7 @@ def write(folder: str) -> None:
     plain, evaluate = inspect.formatannotation, pdoc.doc.safe_eval_type
 
     def evaluated(annotation: Any, *arguments: Any) -> Any:
-        # pdoc does not know the module of a named tuple's fields. They keep the words of the source.
+        # pdoc does not know the module of fields of a named tuple: they keep the source's words.
         is_field = isinstance(annotation, ForwardRef)
         return annotation if is_field else evaluate(annotation, *arguments)
 
