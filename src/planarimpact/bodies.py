@@ -55,6 +55,8 @@ and e falls slowly with speed. A plastic body has a yield pressure: it is elasti
 speed, and then e falls with speed.
 """
 
+from __future__ import annotations
+
 import inspect
 import math
 from collections.abc import Callable, Iterable
@@ -79,6 +81,7 @@ from planarimpact.common.checks import (
     positive,
 )
 from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
+from planarimpact.common.records import record
 from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt, yielding
 
 __all__ = [
@@ -166,6 +169,7 @@ def _check_fields(**rules: _RuleOfNumbers) -> Callable[[type[_Tuple]], type[_Tup
 
 
 @_check_fields(young_modulus=positive, poisson_ratio=_poisson)
+@record
 class Material(NamedTuple):
     """An isotropic elastic material: Young's modulus [Pa] and Poisson's ratio (-1 < nu <= 0.5)."""
 
@@ -174,6 +178,7 @@ class Material(NamedTuple):
 
 
 @_check_fields(mass=_positive_or_infinite, gyration=_positive_or_infinite, radius=not_negative)
+@record
 class Body(NamedTuple):
     """A rigid body: mass [kg], radius of gyration [m], distance centre to contact point [m].
 
@@ -186,6 +191,7 @@ class Body(NamedTuple):
 
 
 @_check_fields(tangential=finite, normal=finite, spin=finite)
+@record
 class Motion(NamedTuple):
     """Velocity of the centre of mass [m/s] and spin [rad/s]; signs as in `planarimpact.bodies`."""
 
@@ -194,6 +200,7 @@ class Motion(NamedTuple):
     spin: Numbers
 
 
+@record
 class Contact(NamedTuple):
     """What the laws of contact ask of two bodies, in the order of their arguments.
 

@@ -11,6 +11,8 @@ towards the surface and its spin, positive where it moves the contact point forw
 In space the spin is the right-handed vector of angular velocity.
 """
 
+from __future__ import annotations
+
 import csv
 import difflib
 import gzip
@@ -224,8 +226,8 @@ velocity_tangential [m/s],velocity_normal [m/s],spin [rad/s]
 
 
 def solve(
-    table: "pd.DataFrame", tolerance: float = TOLERANCE, loss: str | None = None
-) -> "pd.DataFrame":
+    table: pd.DataFrame, tolerance: float = TOLERANCE, loss: str | None = None
+) -> pd.DataFrame:
     """Solve every impact of a table, by a formula, the table of spheres or the continuum.
 
     Parameters
@@ -352,8 +354,8 @@ class Report:
 
     @checks.default_errors
     def _solved(
-        self, table: "pd.DataFrame", problems: dict[int, str], skip_bad: bool
-    ) -> "pd.DataFrame":
+        self, table: pd.DataFrame, problems: dict[int, str], skip_bad: bool
+    ) -> pd.DataFrame:
         """The next part of a table, solved; `problems` of its rows are known by their positions."""
         names = _named(table.columns)
         given = next((names[n] for n in ("loss", *LAWS) if n in names), None)
@@ -459,7 +461,7 @@ def solve_file(
         if os.path.exists(path) and os.path.samefile(path, source):
             raise InputError(f"{path}: it is the table that is read; the result needs another name")
 
-    def solved() -> Iterator["pd.DataFrame"]:
+    def solved() -> Iterator[pd.DataFrame]:
         for table, problems in _parts(source, chunk):
             after = report._solved(table, problems, skip_bad)
             numbers = [text for name, text in _named(table.columns).items() if name != "loss"]
@@ -494,12 +496,12 @@ def _packages(parquet: bool = False) -> Any:
     return pd
 
 
-def _slices(table: "pd.DataFrame", chunk: int) -> Iterator[tuple["pd.DataFrame", dict[int, str]]]:
+def _slices(table: pd.DataFrame, chunk: int) -> Iterator[tuple[pd.DataFrame, dict[int, str]]]:
     for start in range(0, max(len(table), 1), chunk):
         yield table.iloc[start : start + chunk], {}
 
 
-def _parts(source: str, chunk: int) -> Iterator[tuple["pd.DataFrame", dict[int, str]]]:
+def _parts(source: str, chunk: int) -> Iterator[tuple[pd.DataFrame, dict[int, str]]]:
     """Parts of a table, and `{position: message}` of rows that have another number of cells."""
     pd, names = _packages(), list[str]()
     with open(source, "rb") as file:
@@ -555,7 +557,7 @@ def _said(error: Exception, cells: int) -> str:
     return checks.in_ascii(words.removeprefix("Error tokenizing data. C error: ")) + hint
 
 
-def _write(parts: Iterator["pd.DataFrame"], path: Path, kind: str) -> None:
+def _write(parts: Iterator[pd.DataFrame], path: Path, kind: str) -> None:
     """Write the parts of a table to a file of this kind."""
     import pandas as pd
 
@@ -652,7 +654,7 @@ def _refuse_incomplete(names: set[str]) -> None:
 
 
 def _numbers(
-    table: "pd.DataFrame", names: dict[str, str], loss: str | None, problems: dict[int, str]
+    table: pd.DataFrame, names: dict[str, str], loss: str | None, problems: dict[int, str]
 ) -> dict[str, Any]:
     """Columns of a table as float64 by name; what is wrong with rows is added to `problems`.
 
@@ -696,7 +698,7 @@ def _numbers(
     return values
 
 
-def _floats(cells: "pd.Series") -> Array:
+def _floats(cells: pd.Series) -> Array:
     """Numbers of a column; NaN where there is none, or one that is too large for float64.
 
     Text is a number in plain digits, and only the text inf is infinite.

@@ -114,6 +114,8 @@ def contents(thing):
         return {key: contents(value) for key, value in thing.items()}
     if isinstance(thing, list | tuple):
         return [type(thing).__name__, *map(contents, thing)]
+    if isinstance(thing, type):  # which has a name
+        return thing
     ours = type(thing).__module__.startswith(("planarimpact", "functools"))
     return contents(thing.__reduce_ex__(4)) if ours else thing
 

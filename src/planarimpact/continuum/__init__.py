@@ -19,6 +19,7 @@ import numpy as np
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import SMALLEST, Array, ArrayLike
 from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
+from planarimpact.common.records import record
 from planarimpact.common.results import Rebound
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
@@ -32,6 +33,7 @@ LEAST_RESTITUTION = max(VISCOUS.least_restitution, PLASTIC.least_restitution)
 ELASTIC_TOLERANCE, LOSSY_TOLERANCE = 1e-6, 1e-4
 
 
+@record
 class ContinuumHistory(NamedTuple):
     """Forces, velocity and the edge of stick over one contact of a continuum.
 

@@ -18,6 +18,7 @@ import numpy as np
 from planarimpact import bodies
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.records import record
 from planarimpact.fit import overlaps
 from planarimpact.models import timestep
 from planarimpact.models.timestep import Law
@@ -110,6 +111,7 @@ O.dt = {step:g}
 """
 
 
+@record
 class Code(NamedTuple):
     """A law of a code: by its tangential styles, and as it is used without a fit.
 
@@ -177,6 +179,7 @@ CODES = {
 }
 
 
+@record
 class Error(NamedTuple):
     """Difference of velocity from the continuum, in mu v2(0), where the overlap vanishes."""
 
@@ -185,6 +188,7 @@ class Error(NamedTuple):
     at: float  # incidence of the largest
 
 
+@record
 class Fit(NamedTuple):
     """A law of a code compared with the continuum, as `planarimpact.fit.fit` returns it.
 

@@ -13,6 +13,8 @@ A name contains what takes the energy below e = 1, such as "lumped.hysteretic", 
 may stand wherever a name does; as an entry of `MODELS` it is known by its name, too.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial

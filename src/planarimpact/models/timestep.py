@@ -59,6 +59,8 @@ Hertz's. A dashpot has its coefficient times (m2 F/d)^(1/2), where F is the forc
 spring and d the approach.
 """
 
+from __future__ import annotations
+
 import functools
 import math
 from collections.abc import Iterable, Iterator

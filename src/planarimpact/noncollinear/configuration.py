@@ -18,8 +18,10 @@ from planarimpact.bodies import Motion, fields
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from planarimpact.common.checks import InputError, checked, finite, not_negative, positive
+from planarimpact.common.records import record
 
 
+@record
 class InverseMass(NamedTuple):
     """Inverse mass at the contact point [1/kg] (Eq. 2): 1/m1, the coupling c, and 1/m2.
 

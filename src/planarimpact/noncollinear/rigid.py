@@ -34,10 +34,11 @@ import numpy as np
 
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Booleans
+from planarimpact.common.records import Members, record
 from planarimpact.noncollinear.configuration import InverseMass, checked_impact
 
 
-class Law(StrEnum):
+class Law(StrEnum, metaclass=Members):
     """Law of restitution, by what its coefficient e is a ratio of.
 
     Examples
@@ -51,6 +52,7 @@ class Law(StrEnum):
     KINETIC = "kinetic"
 
 
+@record
 class ImpulsiveRebound(NamedTuple):
     """The state at separation, one entry an impact; scalars where all arguments were scalars.
 
