@@ -681,6 +681,8 @@ def _numbers(
             number = np.nan if name == "loss" else values[name][row]
             bounds = column.low, min(column.high, LARGEST)
             said = checks.refusal(text, number, column.allowed, *bounds, shown)
+            if checks._has_unit(cell):
+                said = f"{text} = {shown} has a unit: give plain numbers, in SI units"
             problems.setdefault(row, said + (POINT if "," in shown else ""))
     inertia = ("other_density", "other_mass", "other_gyration")
     moves = np.any([np.isfinite(values[name]) for name in inertia if name in values], axis=0)

@@ -49,9 +49,15 @@ class Inch:
         return 0.5
 
 
+class Millimetres(float):
+    """A number with a unit that is a float, too."""
+
+    unit = "mm"
+
+
 HALF = np.ma.array([0.5, 0.5], mask=[False, True])
 UNITS = [Inch(), [0.5, Inch()], np.full(3, 0.5).view(Inches), [np.full(3, 0.5).view(Inches)]]
-UNITS.append(pd.Series([Inch(), Inch()]))
+UNITS += [pd.Series([Inch(), Inch()]), Millimetres(0.5), [0.5, Millimetres(0.5)]]
 NO_NUMBERS = [*UNITS, "1", True, [True, 0.5], 1j, HALF, [HALF, HALF], pd.NA, None, 10**400]
 NO_NUMBERS += [[[0.5], [0.5, 0.5]], pd.array([1, None], dtype="Int64"), {}, b"1"]
 NOT_EVEN_MISSING = [bad for bad in NO_NUMBERS if not isinstance(bad, pd.arrays.IntegerArray)]

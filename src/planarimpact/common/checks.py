@@ -209,12 +209,18 @@ def _parts(value: Any) -> Iterator[Any]:
     """What NumPy would convert in silence: a value, or all within lists that is no plain number."""
     if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
         types = set(map(type, value))  # the only pass over all entries of a long list of numbers
-        suspect = {kind for kind in types if kind is bool or not issubclass(kind, _NUMBERS)}
+        suspect = {kind for kind in types if not _is_plain(kind)}
         for entry in value if suspect else ():
             if type(entry) in suspect:
                 yield from _parts(entry)
     else:
         yield value
+
+
+def _is_plain(kind: type) -> bool:
+    """Whether it is a type of numbers of Python or NumPy; a type made of one may have a unit."""
+    own = kind.__module__ in ("builtins", "numpy")
+    return own and issubclass(kind, _NUMBERS) and kind is not bool
 
 
 def _has_unit(value: Any) -> bool:

@@ -124,7 +124,11 @@ lumped.hysteretic (the paper's), ...
     """
     chosen = get(model)
     chosen.refuse_others(settings)
-    return chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
+    result = chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
+    if not isinstance(result, Rebound):
+        said = f"rebound of {chosen.name} gives {type(result).__name__}: allowed is a Rebound"
+        raise checks.InputError(f"{said}, which laws.of_velocity makes of velocities")
+    return result
 
 
 def input_spread(
