@@ -51,7 +51,7 @@ REPRODUCTION = {
     "printed": "common lumped",
     "explorer": "planarimpact common lumped continuum bodies collision reference_data pages",
     "figures/solving": "planarimpact common bodies rigid lumped continuum noncollinear models"
-    " fit scene pandas printed tables names figures settings",
+    " spheres fit scene pandas printed tables names figures settings",
     "figures/drawing": "planarimpact common tables names words goodness reference_data figures"
     " verdict_table matplotlib pandas",
     "ledger": "common bodies rigid lumped continuum noncollinear models"
@@ -84,8 +84,6 @@ PUBLIC_MODULES = {
     "models.laws",
     "models.timestep",
     "noncollinear.rigid",
-    "scene.columns",
-    "scene.files",
     "collision.mechanics",  # these three solve scenes
     "collision.model_form",
     "collision.methods",

@@ -14,7 +14,6 @@
   strike off their centre.
 - `normal_impact.hertz`, `normal_impact.kelvin_voigt`, `normal_impact.yielding`: head-on impact of
   spheres, elastic, viscous and plastic.
-- `common`: what all of these stand on.
 
 Symbols and their names. Every model takes the first four. Index 1 is tangential, 2 normal.
 
@@ -38,7 +37,6 @@ stands for the module on whose page it is.
 import importlib
 from typing import TYPE_CHECKING
 
-from planarimpact import common
 from planarimpact.common.checks import ConvergenceError, InputError
 from planarimpact.common.results import Event, EventKind, History, Rebound, Regime
 
@@ -76,7 +74,6 @@ __all__ = [
     "bodies",
     "noncollinear",
     "normal_impact",
-    "common",
     "Collision",
     "Pair",
     "collide",

@@ -4,6 +4,8 @@ The contact slides until friction has stopped it, and then sticks until separati
 configuration it never turns round. These are the light and dotted curves of Figs 5, 7 and 9.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from planarimpact.common import checks, sliding

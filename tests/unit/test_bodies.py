@@ -1,5 +1,6 @@
 """Bodies and materials: known values, limits, conservation laws."""
 
+import inspect
 import re
 
 import numpy as np
@@ -102,25 +103,37 @@ def test_arrays_broadcast():
     assert np.ndim(bodies.incidence(1.0, 1.0, 0.5)) == 0
 
 
-STEEL = {"mass": 0.0327, "effective_modulus": 115e9, "effective_radius": 0.01}
-RUBBER = {"mass": 0.3, "effective_modulus": 3e6, "effective_radius": 0.02}
+STEEL = {"mass": 0.0327, "effective_radius": 0.01, "effective_modulus": 115e9}
+RUBBER = {"mass": 0.3, "effective_radius": 0.02, "effective_modulus": 3e6}
 LAWS = {
     "viscous": (bodies.viscous_restitution, bodies.relaxation_time),
     "plastic": (bodies.plastic_restitution, bodies.yield_pressure),
 }
 
 
+def test_all_laws_take_a_contact_first_in_one_order():
+    """By place a radius and a modulus, or a speed, could be swapped in silence."""
+    order = [*bodies.Contact._fields, "speed"]
+    assert order == ["mass", "effective_radius", "effective_modulus", "speed"]
+    functions = [getattr(bodies, name) for name in bodies.__all__]
+    taken = {f.__name__: [*inspect.signature(f).parameters] for f in functions if callable(f)}
+    laws = {name: names for name, names in taken.items() if {*names} & {*order[1:]}}
+    assert len(laws) == 9  # Contact among them
+    for names in laws.values():
+        assert names[: len({*names} & {*order})] == [name for name in order if name in names]
+
+
 def test_yield_begins_at_the_yield_speed():
     """There the largest pressure of Hertz, 3 F/(2 pi a^2), is the yield pressure."""
     pressure = np.array([1e8, 2e9, 1e10])
-    speed = bodies.yield_speed(pressure, **STEEL)
+    speed = bodies.yield_speed(yield_pressure=pressure, **STEEL)
     force = bodies.hertz_peak_force(speed=speed, **STEEL)
     radius = (3 * force * 0.01 / (4 * 115e9)) ** (1 / 3)
     np.testing.assert_allclose(3 * force / (2 * np.pi * radius**2), pressure, rtol=1e-13)
-    assert (bodies.plastic_restitution(speed, pressure, **STEEL) == 1).all()
-    assert (bodies.plastic_restitution(0.9 * speed, pressure, **STEEL) == 1).all()
-    assert (bodies.plastic_restitution(1.01 * speed, pressure, **STEEL) < 1).all()
-    assert bodies.yield_pressure(1.0, speed, **STEEL) == pytest.approx(pressure, rel=1e-13)
+    assert (bodies.plastic_restitution(*STEEL.values(), speed, pressure) == 1).all()
+    assert (bodies.plastic_restitution(*STEEL.values(), 0.9 * speed, pressure) == 1).all()
+    assert (bodies.plastic_restitution(*STEEL.values(), 1.01 * speed, pressure) < 1).all()
+    assert bodies.yield_pressure(*STEEL.values(), speed, 1.0) == pytest.approx(pressure, rel=1e-13)
 
 
 @pytest.mark.parametrize(
@@ -129,7 +142,7 @@ def test_yield_begins_at_the_yield_speed():
 )
 def test_restitution_and_force_are_those_of_the_motion(ball, speed, e):
     """The motions by SciPy to 1e-11, in units of effective mass, modulus, radius and speed."""
-    mass, modulus, radius = ball.values()
+    mass, radius, modulus = ball.values()
     length = (mass * speed**2 / (modulus * np.sqrt(radius))) ** 0.4
     unit = modulus * np.sqrt(radius) * length**1.5
     motions = {}
@@ -139,8 +152,8 @@ def test_restitution_and_force_are_those_of_the_motion(ball, speed, e):
     materials["plastic"] = 2 / np.pi * modulus * yield_radius * np.sqrt(length / radius)
     for loss, (law, inverse) in LAWS.items():
         material = materials[loss]
-        assert law(speed, material, **ball) == pytest.approx(e, abs=1e-10)
-        assert inverse(e, speed, **ball) == pytest.approx(material, rel=1e-8)
+        assert law(*ball.values(), speed, material) == pytest.approx(e, abs=1e-10)
+        assert inverse(*ball.values(), speed, e) == pytest.approx(material, rel=1e-8)
         found = bodies.peak_force(speed=speed, restitution=e, loss=loss, **ball)
         assert found == pytest.approx(motions[loss].peak * unit, rel=1e-8)
     elastic = plastic_motion(1.2)  # it never yields
@@ -153,14 +166,15 @@ def test_restitution_at_one_speed_gives_the_material_and_back(loss):
     law, inverse = LAWS[loss]
     e = np.array([[1.0], [1 - 1e-9], [0.9], [0.5], [0.022]])
     speed = np.array([1e-4, 1.0, 300.0])
-    found = law(speed, inverse(e, speed, **STEEL), **STEEL)
+    steel = STEEL.values()
+    found = law(*steel, speed, inverse(*steel, speed, e))
     np.testing.assert_allclose(found, np.broadcast_to(e, (5, 3)), rtol=0, atol=1e-10)
-    assert (np.diff(law(speed, inverse(0.7, 1.0, **STEEL), **STEEL)) < 0).all()
+    assert (np.diff(law(*steel, speed, inverse(*steel, 1.0, 0.7))) < 0).all()
     hertz = bodies.hertz_peak_force(speed=2.0, **STEEL)
     force = bodies.peak_force(speed=2.0, restitution=[1.0, 1 - 1e-12], loss=loss, **STEEL)
     assert force[0] == hertz and force[1] == pytest.approx(hertz, rel=1e-6)
-    assert bodies.relaxation_time(1.0, 2.0, **STEEL) == 0
-    assert bodies.plastic_restitution(1, 1e100, **STEEL) == 1
+    assert bodies.relaxation_time(*steel, speed=2.0, restitution=1.0) == 0
+    assert bodies.plastic_restitution(*steel, speed=1, yield_pressure=1e100) == 1
 
 
 def test_what_is_made_keeps_its_fields_as_given():
@@ -181,7 +195,7 @@ def test_whole_numbers_are_numbers_if_a_float_can_hold_them(value):
 
 def test_what_is_out_of_range_is_named_with_its_place():
     with pytest.raises(bodies.OutOfRange) as refusal:
-        bodies.viscous_restitution([1.0, 9.0], [[1e-7, 0.1], [0.2, 1e-7]], **STEEL)
+        bodies.viscous_restitution(*STEEL.values(), [1.0, 9.0], [[1e-7, 0.1], [0.2, 1e-7]])
     messages = refusal.value.messages
     words = {i: message.partition(":")[0] for i, message in messages.items()}
     assert words == {1: "relaxation_time = 0.1", 2: "relaxation_time = 0.2"}
@@ -191,10 +205,10 @@ def test_a_limit_that_a_refusal_prints_is_allowed():
     """Of relaxation times, and of speeds of spheres in other codes; four digits are enough."""
     speeds = np.geomspace(1e-3, 1e3, 200)
     with pytest.raises(bodies.OutOfRange) as refusal:
-        bodies.viscous_restitution(speeds, 1e9, **STEEL)
+        bodies.viscous_restitution(*STEEL.values(), speeds, 1e9)
     said = [refusal.value.messages[i] for i in range(speeds.size)]
     limits = [float(re.search("up to (.*?) here", message)[1]) for message in said]
-    found = bodies.viscous_restitution(speeds, limits, **STEEL)
+    found = bodies.viscous_restitution(*STEEL.values(), speeds, limits)
     np.testing.assert_allclose(found, bodies.LEAST_RESTITUTION, rtol=1e-2)
     for density in np.geomspace(10, 1e5, 50):
         sphere = GLASS, 0.005, float(density)

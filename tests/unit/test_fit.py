@@ -65,12 +65,14 @@ def test_without_loss_dashpots_change_nothing(law):
 @pytest.mark.parametrize("e", [1.0, 0.3])
 def test_every_law_has_the_restitution_that_is_asked_for(law, e):
     given = timestep.input_restitution_for(law, e)
-    assert timestep.restitution(law, given, 4000) == pytest.approx(e, abs=3e-4)
-    assert timestep.restitution(law, given) == pytest.approx(e, abs=2e-3)
+    assert timestep.restitution_after(law, given, 4000) == pytest.approx(e, abs=3e-4)
+    assert timestep.restitution_after(law, given) == pytest.approx(e, abs=2e-3)
     # A contact that cannot pull slides throughout with mu times its normal impulse.
     if law.limited:
         slides = timestep.with_dashpots(law, np.array([1e3]), 3.5, 1.0, 0.0, given)
-        assert slides == pytest.approx(1e3 - 3.5 * (1 + timestep.restitution(law, given)), abs=1e-9)
+        assert slides == pytest.approx(
+            1e3 - 3.5 * (1 + timestep.restitution_after(law, given)), abs=1e-9
+        )
 
 
 def linear(lines, yade, wall):

@@ -130,8 +130,7 @@ def test_each_module_of_the_package_can_be_imported_first():
     code = "import importlib, sys, numpy\nothers = {*sys.modules}\n"
     for path in (SRC / "planarimpact").rglob("*.py"):
         name = ".".join(path.relative_to(SRC).with_suffix("").parts).removesuffix(".__init__")
-        if name != "planarimpact.scene.files":  # it needs pandas and pyarrow
-            code += f"importlib.import_module({name!r})\n"
-            code += "for name in {*sys.modules} - others:\n"
-            code += "    if name.startswith('planarimpact'): del sys.modules[name]\n"
+        code += f"importlib.import_module({name!r})\n"
+        code += "for name in {*sys.modules} - others:\n"
+        code += "    if name.startswith('planarimpact'): del sys.modules[name]\n"
     assert printed(code) == ""

@@ -28,6 +28,7 @@ from planarimpact.continuum import micro_slip
 from planarimpact.models import laws
 from planarimpact.noncollinear import rigid
 from planarimpact.normal_impact import hertz
+from planarimpact.spheres import table
 
 WIDE = np.array([1e-300, 0.0, 0.7, 2.3, 8.0, 1e100])
 COARSE = {f"continuum{loss}": {"tolerance": 0.1} for loss in ("", ".viscous", ".plastic")}
@@ -95,7 +96,7 @@ update_wrapper(decorated, half).__qualname__ = "decorated"  # as by its `@`
 OBJECTS = [
     *(call() for call in CALLS),
     *(collide(pair, [0, 0, 1], BALL, [1, 0, -3.0], [0, 2.0, 0]) for pair in (PAIR[0], PAIR, MANY)),
-    *(STEEL, BALL, PAIR, scene.Solver(0.1, "viscous"), bodies.contact(BALL, STEEL)),
+    *(STEEL, BALL, PAIR, scene.Report(0.1, "viscous"), bodies.contact(BALL, STEEL)),
     *(fit.fit("yade", incidence_max=2.0), *fit.CODES.values(), *collision.presets().values()),
     *(*models.MODELS.values(), models.Model("half", laws.of_velocity(half)), decorated),
     *(InputError("refused"), bodies.OutOfRange({1: "too large"}), ConvergenceError("given up")),
@@ -113,6 +114,8 @@ def contents(thing):
         return {key: contents(value) for key, value in thing.items()}
     if isinstance(thing, list | tuple):
         return [type(thing).__name__, *map(contents, thing)]
+    if isinstance(thing, type):  # which has a name
+        return thing
     ours = type(thing).__module__.startswith(("planarimpact", "functools"))
     return contents(thing.__reduce_ex__(4)) if ours else thing
 
@@ -140,3 +143,10 @@ def test_losses_may_be_a_column_of_pandas(kind):
         2.0, restitution=[0.8, 1.0, 0.8], loss=["plastic", "viscous", "viscous"]
     )
     assert to_the_bit(partial(spheres.rebound, 2.0, **groups)) == to_the_bit(lambda: wanted)
+
+
+def test_the_table_of_spheres_indexes_with_the_integers_of_the_platform(monkeypatch):
+    """Its files have int64, which NumPy does not cast to an index on 32 bits (Pyodide)."""
+    monkeypatch.setattr(np, "intp", np.int32)
+    panels = table.shipped.__wrapped__("coarse").panels.values()
+    assert {panel.intervals.dtype for panel in panels} == {np.dtype(np.int32)}

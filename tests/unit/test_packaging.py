@@ -4,6 +4,7 @@ import ast
 import importlib
 import inspect
 import json
+import pydoc
 import re
 import shutil
 import subprocess
@@ -146,3 +147,16 @@ def test_every_function_that_the_package_recommends_has_an_example():
                 functions += 1
                 assert "\nExamples\n---" in inspect.getdoc(function), f"{name}.{each}"
     assert functions > 15
+
+
+def test_help_shows_what_is_our_own():
+    """Fields and names of records, and not methods of tuples; ArrayLike, and not what it means."""
+    bodies, lumped = planarimpact.bodies, planarimpact.lumped
+    kinds = [kind for kind in vars(planarimpact).values() if isinstance(kind, type)]
+    records = [kind for kind in kinds if issubclass(kind, (tuple, int, str))]
+    assert len(records) >= 5
+    for record in [*records, bodies.Body, bodies.Material]:
+        shown = pydoc.plain(pydoc.render_doc(record))
+        assert "builtins.tuple:" not in shown and "builtins.int:" not in shown, record
+    for function in (lumped.rebound, bodies.solid_sphere, planarimpact.collide):
+        assert "'ArrayLike'" in pydoc.plain(pydoc.render_doc(function))

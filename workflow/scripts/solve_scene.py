@@ -4,7 +4,7 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from planarimpact.scene import files
+from planarimpact import scene
 
-solver = files.solve(snakemake.input.table, snakemake.output[0], snakemake.params.tolerance)
-print(solver.explain())
+report = scene.solve_file(snakemake.input.table, snakemake.output[0], snakemake.params.tolerance)
+print(report.explain())

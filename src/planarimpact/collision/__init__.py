@@ -11,6 +11,8 @@ radius of gyration is not the same about every axis must turn about an axis acro
 incidence. All vectors have one set of axes. Spin is the right-handed vector of angular velocity.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -83,7 +85,7 @@ class Collision:
     regime: Any
     loss_code: Integers
     # Gives it, or has the impact alone solved as an array; as partial functions can be pickled.
-    _model_form: "Callable[[], Array | Collision]" = field(repr=False)
+    _model_form: Callable[[], Array | Collision] = field(repr=False)
 
     @property
     def loss(self) -> NDArray[np.str_]:

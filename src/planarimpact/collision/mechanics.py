@@ -232,7 +232,7 @@ def _restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> A
             # number for each quantity where there is no such law, or nothing approaches.
             meets = has & (v2 > 0)
             radius = bodies.radius_of_two(body.radius, other.radius)
-            quantities = v2, value, m2, pair.effective_modulus, radius
+            quantities = m2, radius, pair.effective_modulus, v2, value
             of_meeting = law(*(np.where(meets, quantity, 1e-3) for quantity in quantities))
             e = np.where(has, of_meeting, e)
     return e

@@ -7,7 +7,7 @@ the rule of sizes, and an impact that the table of spheres does not answer withi
 
 from collections.abc import Sequence
 from functools import lru_cache
-from math import inf, sqrt
+from math import inf, nan, sqrt
 from typing import Any
 
 import numpy as np
@@ -64,38 +64,16 @@ def collide(
         curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
         if not curvature:
             return []
-        quantities = m2, modulus, 1 / curvature
+        quantities = m2, 1 / curvature, modulus
         if plastic:
-            if yield_pressure > LARGEST_RATIO * modulus:
-                return []
-            share = bodies.unchecked_yield_speed(yield_pressure, *quantities) / v2
-            if share < LEAST_RATIO:
-                return []
-            found = yielding.restitution(np.array(min(share, 1.0)))
+            e = _plastic_restitution(*quantities, v2, yield_pressure)
         else:
-            tau = relaxation_time / bodies.time_unit(v2, *quantities)
-            # Beyond the law its slowest contact, whose restitution the table does not cover.
-            found = kelvin_voigt.restitution(np.array(min(tau, kelvin_voigt.SLOWEST)))
-        e = min(float(found), 1.0)
-    b, unit = beta / zeta2, mu * v2
-    x = v1 / unit
-    y = x / zeta2
-    covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1 and x >= LEAST
-    if not (covered and zeta2 <= spheres.LARGEST_STIFFNESS and spheres.LEAST_RESTITUTION <= e <= 1):
+            e = _viscous_restitution(*quantities, v2, relaxation_time)
+    unit = mu * v2
+    answer = _answer(v1, unit, beta, zeta2, e, plastic and e < 1, tolerance)
+    if not answer:
         return []
-    yields = plastic and e < 1
-    panel, slides_from, share = table.of_one(table.shipped(), y, b, e, yields)
-    if yields and abs(y / slides_from - 1) < UNSURE:
-        return []
-    if y >= slides_from:
-        change, error, regime = -(1 + e) * beta * unit, 0.0, Regime.SLIP_THROUGHOUT
-    else:
-        error = float(table_error(spheres.PANEL_BOUND[panel], beta, x))
-        if error > tolerance:
-            return []
-        w = min(max(share * zeta2, -x, x - (1 + e) * beta), x) * unit
-        change = w - v1
-        regime = Regime.SLIP_STICK_SLIP if x > zeta2 else Regime.STICK_SLIP
+    change, error, regime = answer
     push = [(1 + e) * v2 * m2 * component for component in normal]
     impulse = _sum(push, change / beta / v1 * m2, tangential)
     moment = cross(normal, impulse)
@@ -107,7 +85,53 @@ def collide(
         impulse,
     )
     loss_code = pair.loss_code if e < 1 else NONE
-    return [*np.array(after), *np.array((x, e, error * unit)), regime, loss_code]
+    return [*np.array(after), *np.array((v1 / unit, e, error * unit)), regime, loss_code]
+
+
+def _plastic_restitution(
+    m2: float, radius: float, modulus: float, v2: float, yield_pressure: float
+) -> float:
+    """Restitution at this speed; NaN beyond the rule of sizes."""
+    if yield_pressure > LARGEST_RATIO * modulus:
+        return nan
+    share = bodies.unchecked_yield_speed(m2, radius, modulus, yield_pressure) / v2
+    if share < LEAST_RATIO:
+        return nan
+    return min(float(yielding.restitution(np.array(min(share, 1.0)))), 1.0)
+
+
+def _viscous_restitution(
+    m2: float, radius: float, modulus: float, v2: float, relaxation_time: float
+) -> float:
+    """Restitution at this speed."""
+    tau = relaxation_time / bodies.time_unit(m2, radius, modulus, v2)
+    # Beyond the law its slowest contact, whose restitution the table does not cover.
+    return min(float(kelvin_voigt.restitution(np.array(min(tau, kelvin_voigt.SLOWEST)))), 1.0)
+
+
+def _answer(
+    v1: float, unit: float, beta: float, zeta2: float, e: float, yields: bool, tolerance: float
+) -> tuple[float, float, Regime] | None:
+    """Change of the tangential velocity, its error over `unit`, and regime; None for arrays.
+
+    The functions of arrays must see what the table does not answer within the tolerance. `unit` is
+    mu v2(0).
+    """
+    x = v1 / unit
+    b, y = beta / zeta2, x / zeta2
+    covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1 and x >= LEAST
+    if not (covered and zeta2 <= spheres.LARGEST_STIFFNESS and spheres.LEAST_RESTITUTION <= e <= 1):
+        return None
+    panel, slides_from, share = table.of_one(table.shipped(), y, b, e, yields)
+    if yields and abs(y / slides_from - 1) < UNSURE:
+        return None
+    if y >= slides_from:
+        return -(1 + e) * beta * unit, 0.0, Regime.SLIP_THROUGHOUT
+    error = float(table_error(spheres.PANEL_BOUND[panel], beta, x))
+    if error > tolerance:
+        return None
+    w = min(max(share * zeta2, -x, x - (1 + e) * beta), x) * unit
+    return w - v1, error, Regime.SLIP_STICK_SLIP if x > zeta2 else Regime.STICK_SLIP
 
 
 @lru_cache(maxsize=4096)

@@ -1,5 +1,7 @@
 """A pair of materials, or a table of pairs: friction, stiffness, and what takes the energy."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np
@@ -143,11 +145,11 @@ class Pair:
         """Shape of the array of pairs; () of a single one."""
         return self.loss_code.shape
 
-    def __getitem__(self, index: Any) -> "Pair":
+    def __getitem__(self, index: Any) -> Pair:
         """Some pairs of a table, by an index as of its arrays."""
         return _made(*(getattr(self, name)[index] for name in _ARRAYS))
 
-    def broadcast(self, shape: tuple[int, ...]) -> "Pair":
+    def broadcast(self, shape: tuple[int, ...]) -> Pair:
         """Pairs in one row, for impacts of a shape that this table broadcasts to."""
         fields = (getattr(self, name) for name in _ARRAYS)
         return _made(*(np.broadcast_to(field, shape).reshape(-1) for field in fields))

@@ -6,8 +6,10 @@ from typing import Any, NamedTuple
 from planarimpact import bodies
 from planarimpact.bodies import Body, Material
 from planarimpact.collision.pairs import Pair
+from planarimpact.common.records import record
 
 
+@record
 class Preset(NamedTuple):
     """A body, what it touches, and where the numbers come from.
 

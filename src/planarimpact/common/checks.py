@@ -3,7 +3,7 @@
 import math
 import re
 import reprlib
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from decimal import ROUND_DOWN, Context
 from functools import partial
 from typing import Any
@@ -36,7 +36,8 @@ default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid
 
 # Texts of a loss that is not said, and of missing values.
 NO_LOSS = "", "none", "None", "nan", "<NA>", "NaT"
-_NUMBERS = int, float, np.integer, np.floating
+_PLAIN = int, float, np.float64  # nothing is hidden in such a value
+_NUMBERS = *_PLAIN, np.integer, np.floating
 
 _DOWN = Context(prec=4, rounding=ROUND_DOWN)
 _BRIEF = reprlib.Repr()
@@ -100,7 +101,7 @@ def checked(
 
     The bounds are inclusive, `low` exclusive with `open_low`, and above 0 means from `LEAST` on.
     Infinity passes with `infinite` only, NaN with `missing` only. Booleans, strings, complex
-    numbers and masked entries are refused; all else is what NumPy makes of it.
+    numbers, masked entries and what has a unit are refused; all else is what NumPy makes of it.
 
     Examples
     --------
@@ -117,7 +118,12 @@ def checked(
     """
     if open_low and low == 0:
         low, open_low = LEAST, False
-    if _is_masked(value):
+    if type(value) in _PLAIN and not open_low and low <= value <= high < math.inf:  # type: ignore[operator]
+        return np.array(value, np.float64)  # in a tenth of the time of all that follows
+    parts = () if type(value) in _PLAIN else [*_parts(value)]
+    if any(map(_has_unit, parts)):
+        raise InputError(f"{name} = {brief(value)} has a unit: give plain numbers, in SI units")
+    if any(map(_is_masked, parts)):
         raise InputError(
             f"{name} has masked entries: allowed are {allowed}; leave the masked entries out with "
             "compressed(), or replace them with filled(value)"
@@ -132,7 +138,7 @@ def checked(
         ) from None
     except ValueError:
         raise InputError(f"{name} = {brief(value)}: not a regular array of numbers") from None
-    if array.dtype.kind not in "iuf" or _has_booleans(value):
+    if array.dtype.kind not in "iuf" or any(map(_is_boolean, parts)):
         raise InputError(f"{name} = {brief(value)}: allowed are {allowed}, as real numbers")
     with np.errstate(invalid="ignore", over="ignore", under="ignore"):
         numbers = array.astype(np.float64)
@@ -199,22 +205,40 @@ def _first(numbers: Array, wrong: Booleans) -> tuple[str, float]:
     return where, float(numbers[index])
 
 
-def _is_masked(value: object) -> bool:
-    """Whether an entry is masked, in lists of arrays too: NumPy's conversion ignores the mask."""
-    if isinstance(value, (list, tuple)):
-        nested = list, tuple, np.ndarray
-        return any(_is_masked(entry) for entry in value if isinstance(entry, nested))
-    # Numbers and plain arrays do without numpy.ma, which takes longer to import than this package.
+def _parts(value: Any) -> Iterator[Any]:
+    """What NumPy would convert in silence: a value, or all within lists that is no plain number."""
+    if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
+        types = set(map(type, value))  # the only pass over all entries of a long list of numbers
+        suspect = {kind for kind in types if not _is_plain(kind)}
+        for entry in value if suspect else ():
+            if type(entry) in suspect:
+                yield from _parts(entry)
+    else:
+        yield value
+
+
+def _is_plain(kind: type) -> bool:
+    """Whether it is a type of numbers of Python or NumPy; a type made of one may have a unit."""
+    own = kind.__module__ in ("builtins", "numpy")
+    return own and issubclass(kind, _NUMBERS) and kind is not bool
+
+
+def _has_unit(value: Any) -> bool:
+    """Whether a library of units made it: NumPy's conversion would drop the unit."""
+    if hasattr(value, "iloc"):  # labels of pandas are attributes, too
+        value = getattr(value, "array", None)
+    return hasattr(value, "units") or hasattr(value, "unit")
+
+
+def _is_masked(value: Any) -> bool:
+    """Whether an entry is masked: NumPy's conversion ignores the mask."""
+    # Plain arrays do without numpy.ma, which takes longer to import than this package.
     is_special = isinstance(value, np.ndarray) and type(value) is not np.ndarray
     return is_special and bool(np.ma.is_masked(value))
 
 
-def _has_booleans(value: object) -> bool:
-    """Whether there are any, in lists too: NumPy's conversion makes numbers of them."""
-    if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
-        types = set(map(type, value))  # the only pass over all entries of a long list of numbers
-        suspect = {kind for kind in types if kind is bool or not issubclass(kind, _NUMBERS)}
-        return bool(suspect) and any(_has_booleans(x) for x in value if type(x) in suspect)
+def _is_boolean(value: Any) -> bool:
+    """Whether it is one, or an array of them: NumPy's conversion makes numbers of them."""
     return isinstance(value, bool) or getattr(getattr(value, "dtype", None), "kind", "") == "b"
 
 
@@ -325,7 +349,7 @@ def losses(value: Any, allowed: Collection[str]) -> Integers:
     >>> losses(["plastic", None, "viscous"], ("viscous", "plastic")).tolist()
     [1, -1, 0]
     """
-    if _is_masked(value):
+    if any(map(_is_masked, _parts(value))):
         loss(value, allowed)
     words = value
     if not (isinstance(value, np.ndarray) and value.dtype.kind == "U"):  # which needs no time

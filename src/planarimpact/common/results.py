@@ -1,5 +1,7 @@
 """What every model returns: rebound and history of a contact, its regime and its events."""
 
+from __future__ import annotations
+
 from enum import IntEnum, StrEnum
 from typing import Any, NamedTuple, Self
 
@@ -7,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.records import Members, record
 
 
-class Regime(IntEnum):
+class Regime(IntEnum, metaclass=Members):
     """The order of stick and slip during one contact.
 
     The paper's three regimes are STICK_SLIP, SLIP_STICK_SLIP and SLIP_THROUGHOUT. Others are a
@@ -72,6 +75,7 @@ class Regime(IntEnum):
         return np.where(sticks == 0, cls.SLIP_THROUGHOUT, once_or_more)
 
 
+@record
 class Rebound(NamedTuple):
     """The state at separation, one entry an impact; scalars where all arguments were scalars.
 
@@ -140,7 +144,7 @@ class Rebound(NamedTuple):
         return cls._make([*(field.reshape(incidence.shape) for field in fields), counts])
 
 
-class EventKind(StrEnum):
+class EventKind(StrEnum, metaclass=Members):
     """What happens at an event of a contact's history. Each is a string too, such as "stick"."""
 
     CONTACT = "contact"
@@ -151,6 +155,7 @@ class EventKind(StrEnum):
     SEPARATION = "separation"
 
 
+@record
 class Event(NamedTuple):
     """One event: its kind, its time in t_c, and the state there (units as in `History`)."""
 
@@ -162,6 +167,7 @@ class Event(NamedTuple):
     spring: float
 
 
+@record
 class History(NamedTuple):
     """Forces and velocity over one contact; every event is a vertex.
 

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from planarimpact.common.arrays import SMALLEST, Array, Booleans
+from planarimpact.common.arrays import SMALLEST, Array, Booleans, Integers
 from planarimpact.common.checks import ConvergenceError
 
 # Takes an index of brackets (integers, or a slice for all) and a place in each. Returns a tuple:
@@ -76,15 +76,9 @@ def crossing(
     array([1.41421356, 3.        ])
     """
     place, width = (high if start is None else start).copy(), np.maximum(high - low, 0.0)
-    index = np.arange(place.size)
-    for turn in range(unguarded):
-        value, *slopes = function(slice(None), place)
-        step = _step(value, *slopes)
-        if turn == unguarded - 1:
-            done = _is_last(step, slopes, np.minimum(width, np.abs(place)))
-            index = np.flatnonzero(~(done & (slopes[0] < 0)))
-        place = np.fmin(np.fmax(place + step, low), high)  # no number becomes `low`
+    index: Integers = np.arange(place.size)
     if unguarded:
+        place, index = _unguarded(function, low, high, place, width, unguarded)
         low, high, width = low[index], high[index], width[index]
     trial, turn = place[index], 0
     least = np.maximum(resolution * width, SMALLEST)
@@ -122,6 +116,18 @@ def crossing(
                 before, value_before = before[open_], value_before[open_]
         turn += 1
     return place
+
+
+def _unguarded(
+    function: Function, low: Array, high: Array, place: Array, width: Array, turns: int
+) -> tuple[Array, Integers]:
+    """Places after steps that leave the brackets as they are, and which of them are not exact."""
+    for _ in range(turns):
+        value, *slopes = function(slice(None), place)
+        step, before = _step(value, *slopes), place
+        place = np.fmin(np.fmax(place + step, low), high)  # no number becomes `low`
+    done = _is_last(step, slopes, np.minimum(width, np.abs(before)))
+    return place, np.flatnonzero(~(done & (slopes[0] < 0)))
 
 
 def _step(value: Array, slope: Array, bend: Array | None = None) -> Array:

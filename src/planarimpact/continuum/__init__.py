@@ -10,6 +10,8 @@ Gross slip from the start of contact needs no steps: its closed form is exact. S
 slide throughout.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +19,7 @@ import numpy as np
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import SMALLEST, Array, ArrayLike
 from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
+from planarimpact.common.records import record
 from planarimpact.common.results import Rebound
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
@@ -30,6 +33,7 @@ LEAST_RESTITUTION = max(VISCOUS.least_restitution, PLASTIC.least_restitution)
 ELASTIC_TOLERANCE, LOSSY_TOLERANCE = 1e-6, 1e-4
 
 
+@record
 class ContinuumHistory(NamedTuple):
     """Forces, velocity and the edge of stick over one contact of a continuum.
 
@@ -177,7 +181,7 @@ def rebound(
             if is_elastic or kind is None:
                 solved = elastic.rebound(*groups, allowed[rows])
             else:
-                solved = inelastic.rebound(*groups, e[rows], allowed[rows], kind)
+                solved = inelastic.rebound(*groups, e[rows], kind, allowed[rows])
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 

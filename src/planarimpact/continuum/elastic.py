@@ -76,7 +76,7 @@ def _at_limits(
 
 
 def _integrate(groups: tuple[Array, ...], steps: int) -> Solved:
-    """Raw velocity and peak, counts of gross slips after stick and of reversals, `_nearest`."""
+    """Answers of so many steps, of which the values are velocity and peak friction."""
     x, beta, zeta2 = groups
 
     def solve(part: slice) -> Solved:
@@ -97,7 +97,7 @@ def _summary(
     gross_slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
     counts = np.stack([gross_slips, refinement.sign_changes(friction)])
     values = np.stack([velocity[-1], _peak(phase, np.abs(friction), gross)])
-    return values, counts, _nearest(reserve, centre, gross)
+    return Solved(values, counts, _nearest(reserve, centre, gross))
 
 
 def _nearest(reserve: Array, centre: Array, gross: Booleans) -> Array:

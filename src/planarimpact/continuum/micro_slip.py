@@ -18,6 +18,8 @@ tangential displacement zeta^2 mu d_max, so that a contact of approach d slips a
 u has changed by d.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from planarimpact.common import checks

@@ -2,16 +2,13 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.common.checks import ConvergenceError
 from planarimpact.common.results import Regime
-
-# Values, counts of gross slips and of reversals, and how near one slip more or less is.
-Solved: TypeAlias = tuple[Array, Integers, Array]
 
 # An error estimate counts only with so many steps in each radian of the tangential oscillation.
 STEPS_A_RADIAN = 4
@@ -41,6 +38,24 @@ class Unsolved(ConvergenceError):
     def __reduce__(self) -> tuple[type["Unsolved"], tuple[str, Integers]]:
         """Pickle it by its arguments, so that another process can raise it again."""
         return type(self), (str(self), self.impacts)
+
+
+class Solved(NamedTuple):
+    """Answers to m impacts by a number of steps.
+
+    Attributes
+    ----------
+    values : ndarray, shape (k, m)
+        Velocity and peak friction come first.
+    counts : ndarray of int, shape (2, m)
+        Of gross slips after stick, and of reversals.
+    nearest : ndarray, shape (m,)
+        How near one gross slip more or less is.
+    """
+
+    values: Array
+    counts: Integers
+    nearest: Array
 
 
 def steps_needed(beta: Array, zeta2: Array, share_of_hertz: Array | float = 1.0) -> Array:
@@ -88,14 +103,12 @@ def refine(
 
     `groups` are incidence, mass ratio, stiffness ratio, and what else `integrate` takes, each (n,);
     `tolerance` (n,) is that of each; with fewer steps than `needed` (n,) an estimate does not
-    count. With groups of m impacts and a number of steps `integrate` returns `Solved`: values
-    (k, m), of which velocity and peak friction come first and must meet the tolerance; counts
-    (2, m); and how near one gross slip more or less is (m,).
+    count. `integrate` takes groups of m impacts and a number of steps. Of its values velocity and
+    peak friction must meet the tolerance.
     """
     x, beta, zeta2 = groups[:3]
     refuse_hopeless(x, beta, zeta2, needed, tolerance, most)
-    values = np.zeros((3, x.size))  # if there is nothing to do
-    counts, nearest = np.zeros((2, x.size), dtype=np.int64), np.full(x.size, np.nan)
+    known = _Known(3, x.size)  # if there is nothing to do
     unsolved, message = [], None
     todo, steps = np.arange(x.size), first
     while todo.size:
@@ -104,21 +117,8 @@ def refine(
         # help.
         fine, number, near = integrate(tuple(group[todo] for group in groups), steps)
         if steps == first:
-            values = np.zeros((len(fine), x.size))
-            coarse, change = np.full((2, len(fine), x.size), np.nan)
-        correction = (fine - coarse[:, todo]) / 3
-        better = fine + correction
-        changed = np.abs(better - values[:, todo])
-        # A change may be small by chance, where the steps resolve an event of the contact late. So
-        # a quarter of the change before counts too, and a quarter of the correction. All of the
-        # correction counts where a gross slip may still come or go: the velocity has a kink there.
-        # Steps displace the kink, and answers on one side of it do not show that.
-        moved = np.abs(near - nearest[todo])
-        unsure = (number[0] != counts[0, todo]) | (near <= UNSURE * moved)
-        chances = change[:, todo] / 4, np.abs(correction) / np.where(unsure, 1, 4)
-        estimate = safety * np.maximum(changed, np.maximum(*chances))
-        coarse[:, todo], values[:, todo], change[:, todo] = fine, better, changed
-        counts[:, todo], nearest[todo] = number, near
+            known = _Known(len(fine), x.size)
+        estimate = safety * known.improve(todo, fine, number, near)
         resolved = steps >= needed[todo]
         worst = estimate[:2].max(axis=0)  # NaN while there is no estimate yet
         allowed = tolerance[todo]
@@ -136,7 +136,42 @@ def refine(
         todo, steps = todo[~settled & ~beyond], 2 * steps
     if message:
         raise Unsolved(message, np.sort(unsolved))
-    return values, counts
+    return known.values, known.counts
+
+
+class _Known:
+    """What is known of n impacts so far.
+
+    Attributes
+    ----------
+    values : ndarray, shape (k, n)
+        Extrapolated.
+    counts : ndarray of int, shape (2, n)
+        As in `Solved`.
+    """
+
+    def __init__(self, k: int, n: int) -> None:
+        self.values, self.counts = np.zeros((k, n)), np.zeros((2, n), dtype=np.int64)
+        # The last answers as they were solved, and by how much the extrapolated ones changed.
+        self._coarse, self._change = np.full((2, k, n), np.nan)
+        self._nearest = np.full(n, np.nan)
+
+    def improve(self, which: Integers, fine: Array, number: Integers, near: Array) -> Array:
+        """Take some impacts, `Solved` with twice the steps, and estimate their errors, (k, m)."""
+        correction = (fine - self._coarse[:, which]) / 3
+        better = fine + correction
+        changed = np.abs(better - self.values[:, which])
+        # A change may be small by chance, where the steps resolve an event of the contact late. So
+        # a quarter of the change before counts too, and a quarter of the correction. All of the
+        # correction counts where a gross slip may still come or go: the velocity has a kink there.
+        # Steps displace the kink, and answers on one side of it do not show that.
+        moved = np.abs(near - self._nearest[which])
+        unsure = (number[0] != self.counts[0, which]) | (near <= UNSURE * moved)
+        chances = self._change[:, which] / 4, np.abs(correction) / np.where(unsure, 1, 4)
+        self._coarse[:, which], self.values[:, which] = fine, better
+        self._change[:, which] = changed
+        self.counts[:, which], self._nearest[which] = number, near
+        return np.maximum(changed, np.maximum(*chances))
 
 
 def in_reach(error: Array, tolerance: Array, steps: int, most: int) -> Booleans:
@@ -201,8 +236,8 @@ def counted_among(rows: Integers) -> Iterator[None]:
 def in_parts(count: int, together: int, solve: Callable[[slice], Solved]) -> Solved:
     """What `refine` wants of `integrate`, solved for `together` impacts at a time."""
     parts = [slice(start, start + together) for start in range(0, max(count, 1), together)]
-    values, counts, nearest = zip(*(solve(part) for part in parts), strict=True)
-    return np.concatenate(values, axis=1), np.concatenate(counts, axis=1), np.concatenate(nearest)
+    fields = zip(*(solve(part) for part in parts), strict=True)
+    return Solved._make(np.concatenate(field, axis=-1) for field in fields)
 
 
 def sign_changes(force: Array) -> Integers:

@@ -13,6 +13,8 @@ an impact costs.
 cost.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from planarimpact import continuum, spheres

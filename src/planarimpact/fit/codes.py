@@ -6,6 +6,8 @@ Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; Merc
 `data/lammps`; nothing here runs the other two.
 """
 
+from __future__ import annotations
+
 import math
 import re
 from collections.abc import Mapping
@@ -16,6 +18,7 @@ import numpy as np
 from planarimpact import bodies
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.records import record
 from planarimpact.fit import overlaps
 from planarimpact.models import timestep
 from planarimpact.models.timestep import Law
@@ -108,6 +111,7 @@ O.dt = {step:g}
 """
 
 
+@record
 class Code(NamedTuple):
     """A law of a code: by its tangential styles, and as it is used without a fit.
 
@@ -175,6 +179,7 @@ CODES = {
 }
 
 
+@record
 class Error(NamedTuple):
     """Difference of velocity from the continuum, in mu v2(0), where the overlap vanishes."""
 
@@ -183,6 +188,7 @@ class Error(NamedTuple):
     at: float  # incidence of the largest
 
 
+@record
 class Fit(NamedTuple):
     """A law of a code compared with the continuum, as `planarimpact.fit.fit` returns it.
 
@@ -306,8 +312,8 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
             raise checks.InputError(
                 f"found.{name} = {value:g}: allowed is that of two such spheres, {float(own):g}"
             )
-    m2, modulus, effective = bodies.contact(sphere, material, sphere, material)
-    mass, force = float(m2), float(bodies.hertz_peak_force(m2, v2, modulus, effective))
+    both = bodies.contact(sphere, material, sphere, material)
+    mass, force = float(both.mass), float(bodies.hertz_peak_force(*both, speed=v2))
     lasts = 2 * hertz.COMPRESSION * hertz.PEAK_FORCE * mass * v2 / force
     # Stiffness and damping of linear springs, normal and tangential.
     kn = mass * (math.pi / lasts) ** 2
@@ -347,6 +353,6 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
         "gt": found.stiffness * young / (1 - nu**2),  # 2 E* times the share
         "multiple": found.damping / own_damping if own_damping else 0.0,
         "strong": strong,
-        "wall_e": timestep.restitution(law, at_wall, round(WALL * timestep.DASHPOT_STEPS)),
+        "wall_e": timestep.restitution_after(law, at_wall, round(WALL * timestep.DASHPOT_STEPS)),
         **{at + name: factor * linear[name] for at, factor in factors.items() for name in linear},
     }

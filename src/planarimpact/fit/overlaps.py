@@ -9,6 +9,8 @@ leave this out. Normal and lever arm may cancel: for steel beads in LAMMPS, at m
 2.5, each alone costs 0.7 d/R, both together 0.2 d/R.
 """
 
+from __future__ import annotations
+
 from planarimpact import bodies
 from planarimpact.common import checks
 from planarimpact.common.arrays import ArrayLike
@@ -83,9 +85,9 @@ def overlap(
         for name, value in given.items()
     )
     sphere = bodies.solid_sphere(r, rho)
-    mass, modulus, effective = bodies.contact(sphere, material, sphere, material)
+    both = bodies.contact(sphere, material, sphere, material)
     # Energy: (2/5) F d is m2 v^2/2.
-    at_one = 1.25 * float(mass / bodies.hertz_peak_force(mass, 1.0, modulus, effective)) / r
+    at_one = 1.25 * float(both.mass / bodies.hertz_peak_force(*both, speed=1.0)) / r
     fastest = (OVERLAPS[-1] / at_one) ** 1.25
     if v > fastest * (1 + 1e-9):  # rounding
         raise checks.InputError(

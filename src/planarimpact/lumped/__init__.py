@@ -20,6 +20,8 @@ differ from it, and to a measured rubber sphere it is the nearest. At e = 0.8 it
 0.73 from the viscous continuum and by up to 0.90 from the plastic one.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from planarimpact.common import checks

@@ -61,19 +61,7 @@ def in_restitution(
     present = np.floor(theta_reached / np.pi)
     rho = theta_reached - present * np.pi
     passed = present == 0
-    # Behind the crest of |T|, where |T| falls, |T|/N may fall too. If it still rises, |T| may meet
-    # N in this half-wave or stay below it.
     behind_crest = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
-    if behind_crest.size:
-        (force, fall), (friction, swing) = (
-            sin_cos(reached[behind_crest]),
-            sin_cos(rho[behind_crest]),
-        )
-        falling = (
-            rate[behind_crest] * swing * force + friction * fall <= 0
-        )  # (|T|'N - |T|N')/A; N' = -fall
-        passed[behind_crest[falling]] = True
-        behind_crest = behind_crest[~falling]
     if behind_crest.size:
         met, latest = _meets_behind_crest(
             reached[behind_crest], rho[behind_crest], amplitude[behind_crest], rate[behind_crest]
@@ -122,7 +110,7 @@ def _onset(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array)
 def _meets_behind_crest(
     eta: Array, rho: Array, amplitude: Array, rate: Array
 ) -> tuple[Booleans, Array]:
-    """Whether a falling |T| whose ratio to N still rises meets its limit in this half-wave.
+    """Whether a falling |T| meets its limit in this half-wave.
 
     Where it does, the second result is an advance at or behind the onset, before any other onset.
 
@@ -131,14 +119,17 @@ def _meets_behind_crest(
 
         rise = (|T|'N - |T|N')/A > 0.
 
-    1. The rise falls all along, since rise' = (1 - rate^2) |T| N/A < 0.
+    1. The rise falls all along, since rise' = (1 - rate^2) |T| N/A < 0. If it is not positive at
+       first, |T| stays below its limit.
     2. The contact may end before the half-wave does. There N = 0, so the rise is still positive:
        the ratio rises all the way, without bound. So |T| meets its limit.
     3. Else the half-wave ends first. There T = 0 and |T|' < 0, so the rise is negative: it has one
        zero before, where the ratio is largest. |T| meets its limit if it is at or above it there.
     """
-    met, latest = rate * eta <= np.pi - rho, eta.copy()
-    undecided = np.flatnonzero(~met)
+    (force, fall), (friction, swing) = sin_cos(eta), sin_cos(rho)
+    rises = rate * swing * force + friction * fall > 0  # N' = -fall
+    met, latest = rises & (rate * eta <= np.pi - rho), eta.copy()
+    undecided = np.flatnonzero(rises & ~met)
     if not undecided.size:
         return met, latest
     eta, rho, amplitude, rate = (

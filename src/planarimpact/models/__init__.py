@@ -4,26 +4,28 @@ Each model is called as `rebound(incidence, mass_ratio, stiffness_ratio, restitu
 the four groups by position or name and its own settings by name. It returns a `Rebound`. The
 workflow measures what each model costs and how large its error is (`results/curves/trade.csv`).
 
-Arguments and errors: a `name` is one of `MODELS`, a `model` too or its entry there. `incidence`,
-`mass_ratio`, `stiffness_ratio` and `restitution` are those of `planarimpact.lumped.rebound`;
-`settings` are those of the model, and have its defaults. `InputError` says what is not allowed.
+Arguments and errors: a `model` is a name of `MODELS` or a `Model`. `incidence`, `mass_ratio`,
+`stiffness_ratio` and `restitution` are those of `planarimpact.lumped.rebound`; `settings` are those
+of the model, and have its defaults. `InputError` says what is not allowed.
 
 A name contains what takes the energy below e = 1, such as "lumped.hysteretic", the paper's model.
-"lumped" and "continuum" alone are elastic. A law of impulses takes any loss. `register` adds a
-model of your own.
+"lumped" and "continuum" alone are elastic. A law of impulses takes any loss. A `Model` of your own
+may stand wherever a name does; as an entry of `MODELS` it is known by its name, too.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
-from typing import Any, NamedTuple
 
 import numpy as np
 
 from planarimpact import continuum, lumped, rigid, spheres
-from planarimpact.common import checks, sliding
+from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
-from planarimpact.common.losses import LOSSES, LUMPED, SPHERES, Loss
+from planarimpact.common.losses import LOSSES, LUMPED, SPHERES
 from planarimpact.common.results import Rebound
 from planarimpact.models import laws, timestep
 
@@ -33,7 +35,8 @@ RESTITUTION_ERROR, FRICTION_ERROR = 0.02, 0.1
 POINTS = ((-(3**0.5), 1 / 6), (0.0, 2 / 3), (3**0.5, 1 / 6))
 
 
-class Model(NamedTuple):
+@dataclass(frozen=True)
+class Model:
     """One model. Name and rebound are enough.
 
     Attributes
@@ -41,7 +44,7 @@ class Model(NamedTuple):
     name : str
         Module; and function or loss, where a module has several.
     rebound : callable
-        Its solver.
+        Its solver, with the arguments of every model; `laws.of_velocity` makes one of a velocity.
     settings : dict
         Its own settings and their defaults. Its accuracy and cost depend on them.
     cost : str
@@ -56,19 +59,37 @@ class Model(NamedTuple):
     loss : str
         What takes the energy below e = 1: "any" for laws of impulses, to which it makes no
         difference; "" where nothing does, or nobody has said it.
+
+    Examples
+    --------
+    >>> @laws.of_velocity
+    ... def velocity(x, mass_ratio, stiffness_ratio, restitution, *, share=0.5):
+    ...     return np.maximum(x - (1 + restitution) * mass_ratio, -share * x)
+    >>> rebound(Model("mine.half", velocity, {"share": 0.5}), [2.0, 9.0]).velocity.tolist()
+    [-1.0, 2.0]
     """
 
     name: str
     rebound: Callable[..., Rebound]
-    settings: dict[str, float] = {}
+    settings: dict[str, float] = field(default_factory=dict)
     cost: str = "formula"
     restitution: tuple[float, float] = (0.0, 1.0)
     valid: str = ""
     source: str = ""
     loss: str = ""
 
+    def refuse_others(self, settings: Mapping[str, object]) -> None:
+        """Refuse settings that this model does not have; the message names the first one."""
+        for key, value in settings.items():
+            if key not in self.settings:
+                known = (
+                    f"the settings {', '.join(self.settings)}" if self.settings else "no settings"
+                )
+                said = checks.in_ascii(f"{key} = {checks.brief(value)}: {self.name}")
+                raise checks.InputError(f"{said} has {known}")
 
-def get(name: str | Model) -> Model:
+
+def get(model: str | Model) -> Model:
     """The entry of a model, by its name or itself. Arguments and errors: `planarimpact.models`.
 
     Examples
@@ -76,9 +97,9 @@ def get(name: str | Model) -> Model:
     >>> get("lumped").cost
     'phases'
     """
-    if isinstance(name, Model):
-        return name
-    return MODELS[checks.word("model", name, MODELS)]
+    if isinstance(model, Model):
+        return model
+    return MODELS[checks.word("model", model, MODELS)]
 
 
 def rebound(
@@ -102,28 +123,12 @@ def rebound(
 lumped.hysteretic (the paper's), ...
     """
     chosen = get(model)
-    refuse_unknown(chosen, settings)
-    return chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
-
-
-def refuse_unknown(model: str | Model, settings: Mapping[str, object]) -> None:
-    """Refuse settings that a model does not have; the message names the first one.
-
-    Arguments and errors: `planarimpact.models`.
-
-    Examples
-    --------
-    >>> refuse_unknown(get("lumped"), {"steps": 4})
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: steps = 4: lumped has no settings
-    """
-    model = get(model)
-    for key, value in settings.items():
-        if key not in model.settings:
-            known = f"the settings {', '.join(model.settings)}" if model.settings else "no settings"
-            said = checks.in_ascii(f"{key} = {checks.brief(value)}: {model.name}")
-            raise checks.InputError(f"{said} has {known}")
+    chosen.refuse_others(settings)
+    result = chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
+    if not isinstance(result, Rebound):
+        said = f"rebound of {chosen.name} gives {type(result).__name__}: allowed is a Rebound"
+        raise checks.InputError(f"{said}, which laws.of_velocity makes of velocities")
+    return result
 
 
 def input_spread(
@@ -167,100 +172,6 @@ def input_spread(
     return np.sqrt(variance)
 
 
-def admits(
-    model: str | Model, mass_ratio: float, stiffness_ratio: float, restitution: float
-) -> bool:
-    """Whether a model has an answer for numbers. Arguments and errors: `planarimpact.models`.
-
-    Examples
-    --------
-    >>> names = "lumped", "lumped.hysteretic", "spheres.plastic"
-    >>> [admits(get(name), 3.5, 5.0, 0.5) for name in names]
-    [False, True, False]
-    """
-    model, groups = get(model), checks.impact(0.0, mass_ratio, stiffness_ratio, restitution)[1:]
-    low, high = model.restitution
-    covered = not model.name.startswith("spheres.") or spheres.covers(*groups)
-    return bool(np.all((groups[-1] >= low) & (groups[-1] <= high) & covered))
-
-
-def register(model: Model) -> None:
-    """Add a model of your own: from then on `MODELS` and all that takes a name know it.
-
-    It lasts as long as the program runs, or until you `del MODELS[name]`. That `rebound` keeps the
-    convention is tried with a few impacts of a solid sphere (mass ratio 3.5, stiffness ratio 1.21),
-    at both ends of its range of restitution.
-
-    Arguments and errors: `planarimpact.models`; `laws.of_velocity` makes a `rebound` of a velocity
-    alone. It is refused if the name is taken or no word, the restitution is no range within 0 to 1,
-    or `rebound` fails, gives no `Rebound`, another shape than that of the incidences, or a velocity
-    that is no number, not opposite at the opposite incidence or farther from it than friction can
-    bring it.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> @laws.of_velocity
-    ... def velocity(x, mass_ratio, stiffness_ratio, restitution, *, share=0.5):
-    ...     return np.maximum(x - (1 + restitution) * mass_ratio, -share * x)
-    >>> register(Model("example.half", velocity, settings={"share": 0.5}))
-    >>> rebound("example.half", [2.0, 9.0]).velocity.tolist()
-    [-1.0, 2.0]
-    >>> register(Model("rigid", velocity))
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: name = 'rigid': allowed are names that no model has, of one word
-    >>> del MODELS["example.half"]
-    """
-    if not isinstance(model, Model):
-        raise checks.InputError(f"model = {checks.brief(model)}: allowed is a models.Model")
-    name = model.name
-    if not isinstance(name, str) or name.split() != [name] or name in MODELS:
-        allowed = "names that no model has, of one word"
-        raise checks.InputError(f"name = {checks.brief(name)}: allowed are {allowed}")
-    allowed = "two numbers from 0 to 1, the smaller first"
-    ends = checks.checked("restitution", model.restitution, allowed, 0, 1)
-    if ends.shape != (2,) or ends[0] > ends[1]:
-        raise checks.InputError(f"restitution = {model.restitution}: allowed are {allowed}")
-    for e in ends.tolist():
-        _refuse_other_convention(model, e)
-    MODELS[model.name] = model
-
-
-def _refuse_other_convention(model: Model, restitution: float) -> None:
-    """Refuse a model whose `rebound` is not as that of every other, at one restitution."""
-    where = f"rebound of {model.name} at restitution {restitution:g}"
-    x = np.array([[-9.0, -4.0, -2.0, -0.5, 0.0], [9.0, 4.0, 2.0, 0.5, 0.0]])
-    groups: dict[str, Any] = dict(zip(checks.RULES, (x, 3.5, 1.21, restitution), strict=True))
-    try:
-        result = model.rebound(*groups.values())
-        alone = model.rebound(**groups | {"incidence": 2.0}, **model.settings)
-    except Exception as error:
-        problem = checks.in_ascii(f"{type(error).__name__}: {error}")
-        raise checks.InputError(f"{where}: it fails: {problem}") from error
-    for answer, shape in ((result, x.shape), (alone, ())):
-        if not isinstance(answer, Rebound):
-            raise checks.InputError(
-                f"{where}: it gives {type(answer).__name__}: allowed is a Rebound, which "
-                "laws.of_velocity makes of velocities"
-            )
-        for field in ("velocity", "peak_friction", "dissipation", "regime"):
-            found = np.shape(getattr(answer, field))
-            if found != shape:
-                raise checks.InputError(
-                    f"{where}: {field}, shape {found}: allowed is that of the incidences, {shape}"
-                )
-    velocity, largest = np.asarray(result.velocity), sliding.change(3.5, restitution)
-    within_reach = np.abs(x - velocity) <= 1.01 * largest  # models in time steps have small errors
-    bad = ~(within_reach & (velocity == -velocity[::-1]))
-    if bad.any():
-        raise checks.InputError(
-            f"{where}: velocity {velocity[bad][0]:g} at incidence {x[bad][0]:g}: allowed are "
-            "finite numbers, opposite ones at opposite incidences, and changes up to (1 + e) m2/m1 "
-            f"= {largest:g}, the most that friction can give"
-        )
-
-
 def _elastic(
     name: str,
     solve: Callable[..., Rebound],
@@ -279,48 +190,7 @@ def _elastic(
     return solve(*groups, **settings)
 
 
-def _stepped(name: str, law: timestep.Law, valid: str, source: str) -> Model:
-    return Model(
-        f"timestep.{name}",
-        partial(timestep.rebound, law),
-        {"steps": timestep.STEPS},
-        "steps",
-        valid=valid,
-        source=source,
-        loss="hysteretic",
-    )
-
-
-def _lossy(
-    solve: Callable[..., Rebound], cost: str, settings: dict[str, float], loss: Loss
-) -> Model:
-    return Model(
-        f"{loss.model}.{loss.name}",
-        partial(solve, loss=loss.name, **settings),
-        settings,
-        cost,
-        (loss.least_restitution, 1.0),
-        loss.valid,
-        loss.source,
-        loss.name,
-    )
-
-
-def _tabled_continuum(loss: Loss) -> Model:
-    return Model(
-        f"spheres.{loss.name}",
-        partial(spheres.rebound, loss=loss.name),
-        cost="table",
-        restitution=(spheres.LEAST_RESTITUTION, 1.0),
-        valid=f"continuum.{loss.name} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, and "
-        f"m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
-        source="solved by this package, planarimpact.continuum",
-        loss=loss.name,
-    )
-
-
 _ELASTIC = (1.0, 1.0)
-_LOSSY_TOLERANCE = {"tolerance": continuum.LOSSY_TOLERANCE}
 _STEPPED = "fixed time step, as discrete-element codes have it"
 _IMPULSES = "impulses alone: no forces, no order of stick and slip"
 
@@ -359,24 +229,45 @@ MODELS = {
             "e = 1 only",
             source="Stronge 1994",
         ),
-        *(_lossy(lumped.rebound, "phases", {}, loss) for loss in LUMPED.values()),
-        _stepped(
-            "linear",
-            timestep.LINEAR,
-            f"linear spring and slider, {_STEPPED}; tends to the lumped model",
-            "P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
+        *(
+            Model(
+                f"lumped.{name}",
+                partial(lumped.rebound, loss=name),
+                cost="phases",
+                restitution=(loss.least_restitution, 1.0),
+                valid=loss.valid,
+                source=loss.source,
+                loss=name,
+            )
+            for name, loss in LUMPED.items()
         ),
-        _stepped(
-            "mindlin",
-            timestep.MINDLIN,
-            f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
-            "R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
+        Model(
+            "timestep.linear",
+            partial(timestep.rebound, timestep.LINEAR),
+            {"steps": timestep.STEPS},
+            "steps",
+            valid=f"linear spring and slider, {_STEPPED}; tends to the lumped model",
+            source="P. A. Cundall, O. D. L. Strack, Geotechnique 29 (1979) 47-65",
+            loss="hysteretic",
         ),
-        _stepped(
-            "mindlin_rescaled",
-            timestep.MINDLIN_RESCALED,
-            "as timestep.mindlin, the force rescaled with the radius of contact on unloading",
-            "C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, mindlin_rescale/force",
+        Model(
+            "timestep.mindlin",
+            partial(timestep.rebound, timestep.MINDLIN),
+            {"steps": timestep.STEPS},
+            "steps",
+            valid=f"Hertz contact, friction in increments by Mindlin's stiffness, {_STEPPED}",
+            source="R. D. Mindlin, J. Appl. Mech. 16 (1949) 259-268; as in LAMMPS, mindlin/force",
+            loss="hysteretic",
+        ),
+        Model(
+            "timestep.mindlin_rescaled",
+            partial(timestep.rebound, timestep.MINDLIN_RESCALED),
+            {"steps": timestep.STEPS},
+            "steps",
+            valid="as timestep.mindlin, the force rescaled with the radius of contact on unloading",
+            source="C. Thornton et al., Powder Technology 233 (2013) 30-46; LAMMPS, "
+            "mindlin_rescale/force",
+            loss="hysteretic",
         ),
         Model(
             "continuum",
@@ -384,33 +275,35 @@ MODELS = {
             {"tolerance": continuum.ELASTIC_TOLERANCE},
             "steps",
             _ELASTIC,
-            "elastic spheres with micro-slip, to a tolerance; e = 1 only",
-            "N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of Dimensionality "
-            "Reduction in Contact Mechanics and Friction, Springer 2015",
+            valid="elastic spheres with micro-slip, to a tolerance; e = 1 only",
+            source="N. Maw et al., Wear 38 (1976) 101-114; V. L. Popov, M. Hess, Method of "
+            "Dimensionality Reduction in Contact Mechanics and Friction, Springer 2015",
         ),
         *(
-            _lossy(continuum.rebound, "steps and springs", _LOSSY_TOLERANCE, loss)
-            for loss in SPHERES.values()
+            Model(
+                f"continuum.{name}",
+                partial(continuum.rebound, loss=name),
+                {"tolerance": continuum.LOSSY_TOLERANCE},
+                "steps and springs",
+                (loss.least_restitution, 1.0),
+                valid=loss.valid,
+                source=loss.source,
+                loss=name,
+            )
+            for name, loss in SPHERES.items()
         ),
-        *map(_tabled_continuum, SPHERES.values()),
+        *(
+            Model(
+                f"spheres.{name}",
+                partial(spheres.rebound, loss=name),
+                cost="table",
+                restitution=(spheres.LEAST_RESTITUTION, 1.0),
+                valid=f"continuum.{name} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, "
+                f"and m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
+                source="solved by this package, planarimpact.continuum",
+                loss=name,
+            )
+            for name in SPHERES
+        ),
     )
 }
-
-
-def reference(restitution: float, loss: str | None = None) -> str:
-    """Name of the model that others are measured against: a continuum.
-
-    It is elastic for e = 1. Below, `loss` names which one, "viscous" or "plastic", and `InputError`
-    that it is missing or another word. If the loss is not known, the error is up to the distance
-    between the two lossy ones. Arguments and errors: `planarimpact.models`.
-
-    Examples
-    --------
-    >>> reference(1.0), reference(0.9, "viscous"), reference(0.9, "plastic")
-    ('continuum', 'continuum.viscous', 'continuum.plastic')
-    """
-    if loss is None:
-        checks.require_loss(restitution, SPHERES)
-        return "continuum"
-    checks.loss(loss, SPHERES)
-    return "continuum" if np.all(checks.restitution(restitution) == 1) else f"continuum.{loss}"

@@ -17,6 +17,8 @@ Units as in `planarimpact.lumped`. Symbols: x incidence, w velocity at separatio
 b tangential restitution; B = (1 + e) beta, the change of velocity in slip throughout.
 """
 
+from __future__ import annotations
+
 import functools
 import sys
 from collections.abc import Callable

@@ -59,6 +59,8 @@ Hertz's. A dashpot has its coefficient times (m2 F/d)^(1/2), where F is the forc
 spring and d the approach.
 """
 
+from __future__ import annotations
+
 import functools
 import math
 from collections.abc import Iterable, Iterator
@@ -217,12 +219,12 @@ def normal_damping(hertzian: bool, input_restitution: float) -> float:
     return (math.sqrt(5) if hertzian else 2.0) * logarithm / math.hypot(math.pi, logarithm)
 
 
-def restitution(law: Law, input_restitution: float, steps: int = DASHPOT_STEPS) -> float:
+def restitution_after(law: Law, input_restitution: float, steps: int = DASHPOT_STEPS) -> float:
     """Normal speed after a contact over that before it, with dashpots.
 
     Examples
     --------
-    >>> round(restitution(Law(), 0.8, 2000), 3)
+    >>> round(restitution_after(Law(), 0.8, 2000), 3)
     0.8
     """
     return _dashpot_motion(law, input_restitution, steps, 0.0)[1]

@@ -15,6 +15,8 @@ kappa stiffness, zeta^2 stiffness ratio; 1/m1, c and 1/m2 the inverse mass; V = 
 beta = m2/m1 in the solver's units.
 """
 
+from __future__ import annotations
+
 import warnings
 from typing import Any, NamedTuple
 
@@ -31,6 +33,7 @@ from planarimpact.common.checks import (
     positive,
 )
 from planarimpact.common.losses import NONCOLLINEAR
+from planarimpact.common.records import record
 from planarimpact.common.results import Regime
 from planarimpact.noncollinear import rigid
 from planarimpact.noncollinear.configuration import (
@@ -67,6 +70,7 @@ LEAST_RESTITUTION = 1e-3
 GROUPS = "tangential", "mass_ratio", "coupling", "stiffness_ratio", "friction", "restitution"
 
 
+@record
 class NoncollinearRebound(NamedTuple):
     """The state at separation, one entry an impact; scalars where all arguments were scalars.
 

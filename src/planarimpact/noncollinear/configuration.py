@@ -8,6 +8,8 @@ contact point of positive depth in the tangential direction. Friction and normal
 where they oppose positive velocities of the (first) body.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
@@ -16,8 +18,10 @@ from planarimpact.bodies import Motion, fields
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from planarimpact.common.checks import InputError, checked, finite, not_negative, positive
+from planarimpact.common.records import record
 
 
+@record
 class InverseMass(NamedTuple):
     """Inverse mass at the contact point [1/kg] (Eq. 2): 1/m1, the coupling c, and 1/m2.
 
@@ -99,22 +103,22 @@ def combined(first: InverseMass, second: InverseMass) -> InverseMass:
     >>> [float(entry) for entry in balls]
     [6.0, 0.0, 1.5]
     """
-    one, other = checked_inverse_mass(first), checked_inverse_mass(second)
+    one, other = checked_inverse_mass(first, "first"), checked_inverse_mass(second, "second")
     checks.broadcast(first=np.asarray(one.normal), second=np.asarray(other.normal))
     return checked_inverse_mass(InverseMass(*map(np.add, one, other)))
 
 
-def checked_inverse_mass(value: InverseMass) -> InverseMass:
+def checked_inverse_mass(value: InverseMass, name: str = "inverse_mass") -> InverseMass:
     """Check that an inverse mass is that of a body: finite, positive definite."""
     if not isinstance(value, InverseMass):
         raise InputError(
-            f"inverse_mass = {checks.brief(value)}: allowed are "
+            f"{name} = {checks.brief(value)}: allowed are "
             f"InverseMass({', '.join(InverseMass._fields)}) tuples, as inverse_mass(...) makes them"
         )
     tangential, coupling, normal = checks.broadcast(
-        tangential=positive("inverse_mass.tangential", value.tangential),
-        coupling=finite("inverse_mass.coupling", value.coupling),
-        normal=positive("inverse_mass.normal", value.normal),
+        tangential=positive(f"{name}.tangential", value.tangential),
+        coupling=finite(f"{name}.coupling", value.coupling),
+        normal=positive(f"{name}.normal", value.normal),
     )
     with np.errstate(over="ignore"):  # where it is not
         # Every body has 1/(m1 m2) - c^2 = (1 + (offset^2 + depth^2)/k^2)/M^2 > 0.
@@ -122,7 +126,7 @@ def checked_inverse_mass(value: InverseMass) -> InverseMass:
     if not definite.all():
         index = tuple(int(i) for i in np.argwhere(~definite)[0])
         raise InputError(
-            f"inverse_mass.coupling = {float(coupling[index])}: allowed are numbers whose square"
+            f"{name}.coupling = {float(coupling[index])}: allowed are numbers whose square"
             " is below tangential times normal"
         )
     return InverseMass(tangential[()], coupling[()], normal[()])

@@ -25,6 +25,8 @@ Symbols: v1, v2 tangential and normal velocity, 1/m1, c and 1/m2 the inverse mas
 restitution, beta = m2/m1, C = m2 c.
 """
 
+from __future__ import annotations
+
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -32,10 +34,11 @@ import numpy as np
 
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Booleans
+from planarimpact.common.records import Members, record
 from planarimpact.noncollinear.configuration import InverseMass, checked_impact
 
 
-class Law(StrEnum):
+class Law(StrEnum, metaclass=Members):
     """Law of restitution, by what its coefficient e is a ratio of.
 
     Examples
@@ -49,6 +52,7 @@ class Law(StrEnum):
     KINETIC = "kinetic"
 
 
+@record
 class ImpulsiveRebound(NamedTuple):
     """The state at separation, one entry an impact; scalars where all arguments were scalars.
 
@@ -159,19 +163,19 @@ def _rebound(
     slowing = np.where(halts_in_compression, later_slowing, first_slowing)
     until_halt = np.where(halts_in_compression, np.inf, halt - compression)
     if law is Law.KINETIC:
-        restitution = e * compression
+        returned = e * compression
     elif law is Law.KINEMATIC:
-        restitution = e / slowing
+        returned = e / slowing
         with_halt = until_halt + (e - slowing * until_halt) / later_slowing
-        restitution = np.where(restitution > until_halt, with_halt, restitution)
+        returned = np.where(returned > until_halt, with_halt, returned)
     else:
-        restitution = e * np.sqrt(2 * work / slowing)
+        returned = e * np.sqrt(2 * work / slowing)
         work_after_halt = e**2 * work - slowing * until_halt**2 / 2
         speed = slowing * until_halt  # of separation at the halt
         root = np.sqrt(np.maximum(speed**2 + 2 * later_slowing * work_after_halt, 0))
         with_halt = until_halt + 2 * work_after_halt / (speed + root)
-        restitution = np.where(restitution > until_halt, with_halt, restitution)
-    total = compression + restitution
+        returned = np.where(returned > until_halt, with_halt, returned)
+    total = compression + returned
     before, after = np.minimum(total, halt), np.maximum(total - halt, 0.0)
     tangential = np.where(total >= halt, later_drift * after, v1 + first_drift * before)
     normal = 1 - first_slowing * before - np.where(after > 0, later_slowing * after, 0.0)

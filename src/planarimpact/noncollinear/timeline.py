@@ -5,12 +5,14 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common.arrays import Array
+from planarimpact.common.records import record
 from planarimpact.common.results import Event, EventKind
 from planarimpact.phases import Step
 from planarimpact.phases.off_centre import Phase
 from planarimpact.phases.runs import runs
 
 
+@record
 class NoncollinearHistory(NamedTuple):
     """Forces, velocities and deflections over one contact; every event is a vertex.
 

@@ -7,6 +7,8 @@ return numbers or arrays. Units: radius a_max, approach d_max, velocity |v2(0)|,
 value, time d_max/|v2(0)| except where t_c is named.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -231,7 +231,7 @@ class Half:
         def margin(which: Any, share: Array) -> tuple[Array, Array, Array]:
             constant, linear, square, third = (c[which] for c in cubic)
             return (
-                constant - goal[which] + share * (linear + share * (square + share * third)),
+                cubics.value((constant - goal[which], linear, square, third), share),
                 linear + share * (2 * square + 3 * share * third),
                 2 * square + 6 * share * third,
             )

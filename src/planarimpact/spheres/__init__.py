@@ -7,6 +7,8 @@ to 3.5. Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's 
 `table` evaluates it.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from planarimpact.common import checks, sliding

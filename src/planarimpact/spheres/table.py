@@ -124,7 +124,9 @@ def read(file: IO[bytes]) -> Table:
         exponent, panels = int(arrays["exponent"]), {}
         for name in ROOTS:
             packed = (real(_summed(arrays[f"{name}.{key}"]), exponent) for key in PACKED)
-            panels[name] = Panel(name, arrays[f"{name}.intervals"], *packed)
+            # They index: on 32 bits NumPy does not cast int64 to its own type of index.
+            intervals = arrays[f"{name}.intervals"].astype(np.intp)
+            panels[name] = Panel(name, intervals, *packed)
         return Table(exponent, arrays["limits"], panels)
 
 

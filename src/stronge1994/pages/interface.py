@@ -2,7 +2,7 @@
 
 import inspect
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, ForwardRef, get_args
 from unittest import mock
 
 from planarimpact.common import arrays
@@ -26,9 +26,16 @@ def write(folder: str) -> None:
     import pdoc.render
     from pygments.formatters import HtmlFormatter  # type: ignore[import-untyped]
 
-    plain = inspect.formatannotation
+    plain, evaluate = inspect.formatannotation, pdoc.doc.safe_eval_type
+
+    def evaluated(annotation: Any, *arguments: Any) -> Any:
+        # pdoc does not know the module of fields of a named tuple: they keep the source's words.
+        is_field = isinstance(annotation, ForwardRef)
+        return annotation if is_field else evaluate(annotation, *arguments)
 
     def named(annotation: Any, *arguments: Any) -> str:
+        if isinstance(annotation, ForwardRef):
+            return annotation.__forward_arg__
         members, of_array_like = get_args(annotation), get_args(arrays.ArrayLike)
         if all(member in members for member in of_array_like):  # in one flat union with others
             others = [member for member in members if member not in of_array_like]
@@ -49,6 +56,7 @@ def write(folder: str) -> None:
     with (
         mock.patch("inspect.formatannotation", named),
         mock.patch("pdoc.doc.formatannotation", named),
+        mock.patch("pdoc.doc.safe_eval_type", evaluated),
     ):
         pdoc.pdoc(*PACKAGES, output_directory=Path(folder))
 

@@ -14,8 +14,8 @@ import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 from pydantic.dataclasses import dataclass
 
-from planarimpact.common import csv_text
 from planarimpact.common.arrays import Array
+from stronge1994.reference_data import csv_text
 from stronge1994.reference_data.calibration import Calibration
 from stronge1994.tables import Table, with_unit
 

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common import sliding
-from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.common.losses import PLASTIC, VISCOUS, Loss
 from planarimpact.common.results import Regime
 from planarimpact.continuum import refinement
@@ -69,7 +69,7 @@ class Path(NamedTuple):
 
 
 def rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, tolerance: Array, kind: type[NormalMotion]
+    x: Array, beta: Array, zeta2: Array, e: Array, kind: type[NormalMotion], tolerance: Array
 ) -> tuple[Array, Array, Array, Integers, Integers]:
     """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
 
@@ -78,7 +78,7 @@ def rebound(
     Examples
     --------
     >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, np.array([1e-5]), MOTIONS[VISCOUS])[0].round(4)
+    >>> rebound(*groups, MOTIONS[VISCOUS], np.array([1e-5]))[0].round(4)
     array([-0.4805])
     """
     motion = kind(e)
@@ -129,13 +129,7 @@ def path(
     array([-0.185])
     """
     motion, column = kind(e), np.arange(x.size)
-    # Gross slip from the start ends at this normal velocity, at once for x <= zeta^2.
-    slips = x > zeta2
-    last = np.maximum(motion.end_of_first_slip(x, beta, zeta2), -e)
-    where, number = places(steps // 2, np.where(slips, motion.place(last), 0.0))
-    motion.put_springs(where)
-    onset = np.where(last > 0, number, steps - number) * slips
-    throughout = x >= motion.slides_from(beta, zeta2)
+    slips, onset = x > zeta2, _put_springs(motion, x, beta, zeta2, steps)
     start, approach, last, slid = (
         a[onset, column] for a in (motion.time, motion.approach, motion.velocity, motion.force)
     )
@@ -148,6 +142,7 @@ def path(
     u, w = (x * start - beta * (start - approach)) / zeta2, velocity[onset, column]
     displacement[onset, column] = u
     force = np.zeros(x.size)
+    throughout = x >= motion.slides_from(beta, zeta2)
     onset = np.where(throughout, steps + 1, onset)  # never
     for k in range(1, steps + 1):
         begins, began = (onset == k - 1) & slips, onset < k
@@ -170,17 +165,7 @@ def path(
         stick_radius[k] = np.where(began, springs.stick_radius, 0.0)
     if not motion.dashpots:  # the springs are empty at separation: all that the body has lost
         work = (x - velocity[-1]) * (x + velocity[-1]) / (2 * beta)
-    searched = motion.instants_after_slip(steps)
-    if searched:
-        has_search = slips & (last > 0) & (onset + searched <= steps)
-        after = np.minimum(onset + np.arange(1 + searched)[:, None], steps)
-        knots = [motion.time, motion.approach, motion.velocity, displacement, velocity / zeta2]
-        with np.errstate(divide="ignore", invalid="ignore"):  # impacts that are not used
-            later = motion.peak_after_slip(np.stack([a[after, column] for a in knots], axis=1))
-        peak = np.maximum(peak, np.where(has_search, later, 0.0))
-    size, instants = np.abs(friction), (motion.time, motion.velocity, motion.force)
-    gross = size >= GROSS * motion.force
-    peak = peaks.largest(instants, size, gross, onset, peak, searched)
+    peak = _largest_friction(motion, slips, onset, peak, friction, displacement, velocity / zeta2)
     largest = motion.largest_force
     radius = np.concatenate([motion.radius, motion.radius[-2::-1]]) / motion.radius[-1]
     return Path(
@@ -193,6 +178,48 @@ def path(
         np.minimum(peak / largest, 1.0),  # a polynomial may exceed it
         work,
     )
+
+
+def _put_springs(motion: NormalMotion, x: Array, beta: Array, zeta2: Array, steps: int) -> Integers:
+    """Put the springs of impacts; return the instants at which gross slip from the start ends.
+
+    They are numbers up to `steps`, shape (n,): 0 for x <= zeta^2.
+    """
+    slips = x > zeta2
+    last = np.maximum(motion.end_of_first_slip(x, beta, zeta2), -motion.restitution)
+    where, number = places(steps // 2, np.where(slips, motion.place(last), 0.0))
+    motion.put_springs(where)
+    return np.where(last > 0, number, steps - number) * slips
+
+
+def _largest_friction(
+    motion: NormalMotion,
+    slips: Booleans,
+    onset: Integers,
+    peak: Array,
+    friction: Array,
+    displacement: Array,
+    rate: Array,
+) -> Array:
+    """Largest friction of each contact, shape (n,), between the instants too.
+
+    Contacts that slip from the start do so to the instant `onset`, with at most the friction
+    `peak`. Friction, and displacement over zeta^2 with its rate, have the shape (steps + 1, n).
+    """
+    steps = len(friction) - 1
+    searched = motion.instants_after_slip(steps)
+    if searched:
+        column = np.arange(onset.size)
+        loads = motion.velocity[np.minimum(onset, steps), column] > 0
+        after = np.minimum(onset + np.arange(1 + searched)[:, None], steps)
+        knots = [motion.time, motion.approach, motion.velocity, displacement, rate]
+        with np.errstate(divide="ignore", invalid="ignore"):  # impacts that are not used
+            later = motion.peak_after_slip(np.stack([a[after, column] for a in knots], axis=1))
+        used = slips & loads & (onset + searched <= steps)
+        peak = np.maximum(peak, np.where(used, later, 0.0))
+    size, instants = np.abs(friction), (motion.time, motion.velocity, motion.force)
+    gross = size >= GROSS * motion.force
+    return peaks.largest(instants, size, gross, onset, peak, searched)
 
 
 def contact(
@@ -211,7 +238,7 @@ def contact(
 
 
 def _summary(impacts: Path) -> Solved:
-    """Raw velocity, peak and work; counts of gross slips after stick and of reversals; ones.
+    """Answers whose values are velocity, peak friction and work.
 
     How near one gross slip more or less is, is not known here: 1 stands for it. So only a change of
     the count tells `refinement.refine` that a gross slip came or went.
@@ -221,4 +248,4 @@ def _summary(impacts: Path) -> Solved:
     slips = np.sum(gross[1:] & ~gross[:-1], axis=0)
     counts = np.stack([slips, refinement.sign_changes(impacts.friction_force)])
     values = np.stack([impacts.velocity[-1], impacts.peak, impacts.work])
-    return values, counts, np.ones(slips.size)
+    return Solved(values, counts, np.ones(slips.size))

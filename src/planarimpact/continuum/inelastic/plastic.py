@@ -15,12 +15,13 @@ k is a constant. A contact that slides stays in slip where u' exceeds L' + L k (
 largest in the middle, where L = h d, or at the edge, where it is h d'.
 """
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from planarimpact.common import cubics, roots, sliding
-from planarimpact.common.arrays import Array, Booleans
+from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.continuum import refinement
 from planarimpact.continuum.inelastic import peaks
 from planarimpact.continuum.inelastic.motion import NormalMotion, Springs
@@ -249,58 +250,83 @@ class PlasticSprings(Springs):
         """
         motion, limit = self._motion, self._motion.density(k)
         count = min(len(limit), len(self._density))
-        before, after = self._limit[:count], limit[:count]
-        density_before = self._density[:count]
+        limits = self._limit[:count], limit[:count]
+        early, late = (rate * step for _, rate in (start, end))
         pace, later_pace = motion.velocity[k - 1 : k + 1]
         since, until = motion.approach[k - 1 : k + 1]
         approach = cubics.between(since, until, step * pace, step * later_pace, 0.5)
-        early, late = (rate * step for _, rate in (start, end))
-        loads = k < len(motion.radius)
-        if loads:
-            flowed = motion.flowed(np.stack([since, approach, until]))
-            first, last = np.diff(flowed, axis=0)
-        else:
-            first = last = np.zeros_like(step)
+        first, last = flow = self._flow(k, approach)
         # The density without slip, half a step later and at the end of the step.
-        halfway = np.exp(-first) * density_before + _gain(first, early, (early + late) / 2) / 2
-        unlimited = np.exp(-last) * halfway + _gain(last, (early + late) / 2, late) / 2
-        slips = np.zeros(density_before.shape, dtype=bool)
-        # A spring turns if the rate of its limit lies between those of the body. That rate differs
-        # from the edge, where the limit grows most, to the middle, where most has flowed.
-        grown = after[-1] - before[-1]
-        most = np.maximum(grown, after[0] - before[0] + (first + last) * after[0])
-        slowing = (later_pace - pace) * step
+        halfway = _trial(self._density[:count], first, early, (early + late) / 2)
+        unlimited = _trial(halfway, last, (early + late) / 2, late)
+        slips = np.zeros(unlimited.shape, dtype=bool)
         between: Array | None = None
-        for side in (1.0, -1.0):
-            bend = slowing + side * (early - late)
-            turns = side * early > np.minimum(grown, 0.0) - bend
-            turns &= first + last < MOST_FLOW
-            turns &= (side * late < np.maximum(most, 0.0) + bend) & (side * early > side * late)
-            which = np.flatnonzero(turns)
-            if not which.size:
-                continue
+        slowing = (later_pace - pace) * step
+        for side, which in _turning(early, late, slowing, limits, flow):
             if between is None:
                 between = motion.limit_at(approach, (pace + later_pace) / 2, count)
             decay, half_decay = np.exp(-(first + last)[which]), np.exp(-last[which])
-            at_start = decay * (side * density_before[:, which] - before[:, which])
-            middle = half_decay * (side * halfway[:, which] - between[:, which])
-            at_end = side * unlimited[:, which] - after[:, which]
-            bulge = np.maximum(8 * middle - 4 * (at_start + at_end), 1e-300)
-            part = np.clip(0.5 + (at_end - at_start) / bulge, 0.0, 1.0)
-            top = at_start + part * (at_end - at_start + (1 - part) * bulge / 2)
+            at_start = decay * (side * self._density[:count, which] - limits[0][:, which])
+            at_middle = half_decay * (side * halfway[:, which] - between[:, which])
+            at_end = side * unlimited[:, which] - limits[1][:, which]
+            top = _top(at_start, at_middle, at_end)
             unlimited[:, which] -= side * np.maximum(top, 0.0)
             slips[:, which] |= top > 0
-        density = np.clip(unlimited, -after, after)
+        density = np.clip(unlimited, -limits[1], limits[1])
         self._slips = slips | (density != unlimited)
         if count < len(limit):  # a spring comes into contact, without deflection
             density = np.vstack([density, np.zeros_like(step)])
         self._tried = limit, density
         return self._sum(k)
 
+    def _flow(self, k: int, halfway: Array) -> Array:
+        """Flow in the halves of the step to instant k, (2, m); `halfway` is the approach there."""
+        motion = self._motion
+        if k >= len(motion.radius):  # unloading
+            return np.zeros((2, halfway.size))
+        since, until = motion.approach[k - 1 : k + 1]
+        return np.diff(motion.flowed(np.stack([since, halfway, until])), axis=0)
+
     def settle(self, k: int) -> Array:
         """Keep the last trial; return 0, as the work follows from the velocity at the end."""
         self._keep(self._slips)
         return np.zeros_like(self.stick_radius)
+
+
+def _turning(
+    early: Array, late: Array, slowing: Array, limits: tuple[Array, Array], flow: Array
+) -> Iterator[tuple[float, Integers]]:
+    """The contacts in which a spring may turn within a step, by the direction in which it slips.
+
+    A spring turns if the rate of its limit lies between those of the body, `early` and `late`. That
+    rate differs from the edge, where the limit grows most, to the middle, where most has flowed.
+    `slowing` is the change of the normal velocity. All are multiplied by the length of the step.
+    """
+    (before, after), flowed = limits, flow[0] + flow[1]
+    grown = after[-1] - before[-1]
+    most = np.maximum(grown, after[0] - before[0] + flowed * after[0])
+    for side in (1.0, -1.0):
+        bend = slowing + side * (early - late)
+        turns = side * early > np.minimum(grown, 0.0) - bend
+        turns &= flowed < MOST_FLOW
+        turns &= (side * late < np.maximum(most, 0.0) + bend) & (side * early > side * late)
+        which = np.flatnonzero(turns)
+        if which.size:
+            yield side, which
+
+
+def _top(at_start: Array, middle: Array, at_end: Array) -> Array:
+    """Largest value within a step of a parabola through these three."""
+    bulge = np.maximum(8 * middle - 4 * (at_start + at_end), 1e-300)
+    part = np.clip(0.5 + (at_end - at_start) / bulge, 0.0, 1.0)
+    return at_start + part * (at_end - at_start + (1 - part) * bulge / 2)
+
+
+def _trial(density: Array, flow: Array, early: Array, late: Array) -> Array:
+    """Density without slip half a step later, for rates of displacement at its ends."""
+    if not flow.any():  # so in all of unloading
+        return density + (early * 0.5 + late * 0.5) / 2
+    return np.exp(-flow) * density + _gain(flow, early, late) / 2
 
 
 def _gain(flow: Array, early: Array, late: Array) -> Array:

@@ -34,7 +34,7 @@ def curves(
     """
     metal = bodies.Material(ball["young_modulus"], ball["poisson_ratio"])
     hertz = float(
-        bodies.hertz_peak_force(mass, speed, bodies.effective_modulus(metal, metal), ball["radius"])
+        bodies.hertz_peak_force(mass, ball["radius"], bodies.effective_modulus(metal, metal), speed)
     )
     limit = lumped.slip_throughout_limit(mass_ratio, stiffness_ratio, 1.0)
     thresholds = np.array([stiffness_ratio, mass_ratio, limit])

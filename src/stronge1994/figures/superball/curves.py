@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 
 from planarimpact import scene
-from planarimpact.scene.columns import header
 from stronge1994 import tables
 from stronge1994.tables import Table
 
@@ -60,13 +59,13 @@ def impacts(throw: Mapping[str, Any]) -> tuple[pd.DataFrame, pd.DataFrame]:
     along, up = throw["velocity"]
     state = {"velocity_x": along, "velocity_y": 0.0, "velocity_z": up}
     state |= {"spin_x": 0.0, "spin_y": -throw["spin"], "spin_z": 0.0}
-    solver, rows, results = scene.Solver(TOLERANCE), [], []
+    rows, results = [], []
     for bounce in range(throw["bounces"]):
         floor = bounce % 2 == 0
         normal = {"normal_x": 0.0, "normal_y": 0.0, "normal_z": 1.0 if floor else -1.0}
-        known = {header(name): value for name, value in (ball | state | normal).items()}
+        known = {scene.header(name): value for name, value in (ball | state | normal).items()}
         rows.append({"id": f"{bounce + 1}, {'floor' if floor else 'table'}", **known})
-        results.append(solver.solve(pd.DataFrame(rows[-1:])))
+        results.append(scene.solve(pd.DataFrame(rows[-1:]), TOLERANCE))
         after = results[-1].iloc[0]
-        state = {name: float(after[header(name, "_after")]) for name in state}
+        state = {name: float(after[scene.header(name, "_after")]) for name in state}
     return pd.DataFrame(rows), pd.concat(results, ignore_index=True)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from planarimpact import continuum, lumped, models
+from planarimpact import InputError, continuum, lumped, models, spheres
 from planarimpact.common import losses
 from planarimpact.common.arrays import Array
 from planarimpact.common.results import Rebound
@@ -150,7 +150,7 @@ def _contenders(
         # For e = 1 a model with a loss is the same as the model without.
         double = elastic and (stem in models.MODELS or model.name == f"{stem}.{model.loss}")
         name = stem if double else model.name
-        if name in names or not models.admits(model, **groups):
+        if name in names or not _answers(model, groups):
             continue
         names.add(name)
         # The first setting that is tried is varied, others keep their defaults.
@@ -163,6 +163,16 @@ def _contenders(
         spline = _spline_of_continuum(groups, incidence_max)
         build_time = {"build_time [s]": time.process_time() - start}
         yield _Contender("spline of continuum", {"knots": SPLINE_KNOTS}, spline, build_time)
+
+
+def _answers(model: models.Model, groups: Mapping[str, Any]) -> bool:
+    """Whether a model takes these groups."""
+    low, high = model.restitution
+    try:
+        models.rebound(model, 0.0, **groups)
+    except InputError:
+        return False
+    return bool(low <= groups["restitution"] <= high)
 
 
 def _spline_of_continuum(groups: Mapping[str, Any], incidence_max: float) -> _Solver:
@@ -189,8 +199,7 @@ def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: str
     >>> float(reference(np.array([8.0]), groups, 1e-3, "plastic").velocity[0])
     2.75
     """
-    name = models.reference(groups["restitution"], loss or None)
-    return models.rebound(name, x, **groups, tolerance=tolerance)
+    return continuum.rebound(x, **groups, loss=loss or None, tolerance=tolerance)
 
 
 def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
@@ -206,7 +215,7 @@ def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
     """
     loss = loss or losses.VISCOUS.name
     lowest = groups | {"restitution": groups["restitution"] - 2 * models.RESTITUTION_ERROR}
-    if models.admits(models.get(f"spheres.{loss}"), **lowest):
+    if spheres.covers(**lowest):
         return models.input_spread(f"spheres.{loss}", x, **groups)
     return models.input_spread(f"continuum.{loss}", x, **groups, tolerance=SPREAD_TOLERANCE)
 

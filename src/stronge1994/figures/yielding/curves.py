@@ -84,7 +84,7 @@ def _velocity(model: str, tolerance: float, *groups: ArrayLike) -> Array:
     if model == ELASTIC_IN_SHEAR:
         x, beta, zeta2, e = np.broadcast_arrays(*groups)
         lossy, allowed = np.minimum(e, ALMOST_ELASTIC), np.full(x.size, tolerance)
-        return inelastic.rebound(x, beta, zeta2, lossy, allowed, ElasticInShear)[0]
+        return inelastic.rebound(x, beta, zeta2, lossy, ElasticInShear, allowed)[0]
     return curves_below_one.rebound(model, tolerance, *groups).velocity
 
 

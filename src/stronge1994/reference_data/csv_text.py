@@ -1,4 +1,4 @@
-"""Text of CSV that others wrote: what scenes and the reproduction's reference data both read."""
+"""Text of CSV that others wrote, as reference data are."""
 
 import csv
 import io
