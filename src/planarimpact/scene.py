@@ -665,8 +665,8 @@ def _numbers(
     known = dict.fromkeys(checks.NO_LOSS, "") | {word: word for word in LOSSES}
     for name, text in names.items():
         column, cells = COLUMNS[name], table[text]
-        if checks._has_unit(cells):
-            raise InputError(f"column {text!a} has a unit: give plain numbers, in SI units")
+        if checks.has_unit(cells):
+            raise InputError(f"column {text!a} {checks.UNIT}")
         if name == "loss":
             words = [known.get(str(cell).strip(), "?") for cell in cells.to_numpy(dtype=object)]
             values[name] = np.array(words, dtype=str)
@@ -681,8 +681,8 @@ def _numbers(
             number = np.nan if name == "loss" else values[name][row]
             bounds = column.low, min(column.high, LARGEST)
             said = checks.refusal(text, number, column.allowed, *bounds, shown)
-            if checks._has_unit(cell):
-                said = f"{text} = {shown} has a unit: give plain numbers, in SI units"
+            if checks.has_unit(cell):
+                said = f"{text} = {shown} {checks.UNIT}"
             problems.setdefault(row, said + (POINT if "," in shown else ""))
     inertia = ("other_density", "other_mass", "other_gyration")
     moves = np.any([np.isfinite(values[name]) for name in inertia if name in values], axis=0)
@@ -713,7 +713,7 @@ def _floats(cells: pd.Series) -> Array:
     values = np.full(len(cells), np.nan)  # of words, long or sparse numbers, or other objects
     for row, cell in enumerate(cells):
         text, kind = str(cell), isinstance(cell, (bool, np.bool_, complex))
-        if kind or checks._has_unit(cell) or "_" in text or not text.isascii():
+        if kind or checks.has_unit(cell) or "_" in text or not text.isascii():
             continue
         with suppress(TypeError, ValueError, OverflowError):
             values[row] = float(cell)

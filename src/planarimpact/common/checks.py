@@ -34,6 +34,8 @@ MOST = 10_000_000
 # caller has set by np.seterr or np.errstate, and an unexpected invalid operation still warns.
 default_errors = np.errstate(divide="warn", over="warn", under="ignore", invalid="warn")
 
+# What is said of a value with a unit.
+UNIT = "has a unit: give plain numbers, in SI units"
 # Texts of a loss that is not said, and of missing values.
 NO_LOSS = "", "none", "None", "nan", "<NA>", "NaT"
 _PLAIN = int, float, np.float64  # nothing is hidden in such a value
@@ -121,8 +123,8 @@ def checked(
     if type(value) in _PLAIN and not open_low and low <= value <= high < math.inf:  # type: ignore[operator]
         return np.array(value, np.float64)  # in a tenth of the time of all that follows
     parts = () if type(value) in _PLAIN else [*_parts(value)]
-    if any(map(_has_unit, parts)):
-        raise InputError(f"{name} = {brief(value)} has a unit: give plain numbers, in SI units")
+    if any(map(has_unit, parts)):
+        raise InputError(f"{name} = {brief(value)} {UNIT}")
     if any(map(_is_masked, parts)):
         raise InputError(
             f"{name} has masked entries: allowed are {allowed}; leave the masked entries out with "
@@ -223,7 +225,7 @@ def _is_plain(kind: type) -> bool:
     return own and issubclass(kind, _NUMBERS) and kind is not bool
 
 
-def _has_unit(value: Any) -> bool:
+def has_unit(value: Any) -> bool:
     """Whether a library of units made it: NumPy's conversion would drop the unit."""
     if hasattr(value, "iloc"):  # labels of pandas are attributes, too
         value = getattr(value, "array", None)
