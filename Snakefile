@@ -21,6 +21,7 @@ rule all:
     input:
         verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
         ledger="results/ledger.csv",
+        accepted="data/accepted/verdicts.csv",
         made=made(JUDGED),
         pages=PAGES,
     log:
@@ -58,6 +59,7 @@ for target, names in [("paper", PAPER), *((name, [name]) for name in JUDGED)]:
             target
         input:
             verdicts=expand("results/verdicts/{judged}.csv", judged=names),
+            accepted="data/accepted/verdicts.csv",
             made=made(names),
         log:
             f"results/logs/{target}.log",

@@ -5,7 +5,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 
-from stronge1994 import figure_table, tables, verdict_table
+from stronge1994 import accepted, figure_table, tables, verdict_table
 from stronge1994.ledger import outcome
 from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
@@ -13,12 +13,11 @@ from stronge1994.verdict_table import Group, Verdict, Why
 LEDGER = "results/ledger.csv"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 PASSED = """\
-PASSED: nothing has changed, {checks} checks hold.
+PASSED: every result is as accepted, known differences included; {checks} checks.
 Printed curves: {printed}.
 This does not mean that the paper is right. "wrong" says: not by its own model.
 A run FAILS if a curve of ours leaves the tolerance of its reference in data/,
-if one of {known} known differences leaves its bounds, or if one of {entries}
-verdicts on the paper no longer holds.
+or if a result is not the one that was accepted: data/accepted/verdicts.csv.
 Look:    figures/report.html in a browser: the table above, with reasons
 Play:    figures/explorer.html
 Tables:  results/verdicts.csv, results/ledger.csv
@@ -40,18 +39,25 @@ def faults(
     ledger: Sequence[Row],
     comparisons: Collection[str],
     entries: Collection[str],
+    known: Sequence[Row],
 ) -> list[str]:
     """Why a run must not pass, by its tables, one line for each fault.
 
     `comparisons` and `entries` name the rows that the tables of verdicts and of the ledger must
-    have.
+    have, and `known` has the rows of the accepted table. A whole run, which has entries, has all of
+    these.
 
-    >>> row = {"comparison": "fig6-rebound", "verdict": "agrees"}
-    >>> faults([row], [], ["fig6-rebound", "fig6-printed"], [])
+    >>> faults([], [], ["fig6-printed"], [], [])
     ['missing: fig6-printed']
     """
     there = {row["comparison"] for row in verdicts} | {row["entry"] for row in ledger}
+    asked = {*comparisons, *entries}
     return [
+        *(
+            f"accepted, but no longer compared: {row['name']}"
+            for row in known
+            if entries and row["name"] not in asked
+        ),
         *(f"missing: {name}" for name in [*comparisons, *entries] if name not in there),
         *(
             f"FAILS: {row['comparison']}: {verdict_table.problem(row)}"
@@ -59,6 +65,7 @@ def faults(
             if row["verdict"] == Verdict.FAILS
         ),
         *(f"no longer holds: {row['entry']}: {row['problem']}" for row in outcome.failing(ledger)),
+        *accepted.changes(verdicts, ledger, known),
     ]
 
 
@@ -92,7 +99,8 @@ def summary(
     """
     rows = verdict_table.gather(verdicts)
     ledger = tables.read_rows(LEDGER, outcome.COLUMNS) if entries else []
-    wrong = faults(rows, ledger, comparisons, entries)
+    known = tables.read_rows(accepted.PATH, accepted.COLUMNS)
+    wrong = faults(rows, ledger, comparisons, entries, known)
     others = [] if failed else unmade(rows)  # else the figures are not all drawn
     again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
     parts = [""]
@@ -115,15 +123,14 @@ def summary(
         parts += [_filled(fault) for fault in wrong[:MOST_FAULTS]]
         more = len(wrong) - MOST_FAULTS
         parts += [f"  and {more} more: results/verdicts/, {LEDGER}"] if more > 0 else []
+        parts += [accepted.ACCEPT]
     elif stopped and not others:
         parts += [_filled(STOPPED)]
     elif "all" in passed:
         found = Counter(row["verdict"] for row in rows)
         checks = len(rows) - found[Verdict.NOT_COMPARED] + len(ledger)
         printed = figure_table.of_printed(rows) or NO_PRINT
-        known = len(verdict_table.known(rows))
-        told = {"checks": checks, "printed": printed, "known": known, "entries": len(ledger)}
-        parts += [PASSED.format(**told)]
+        parts += [PASSED.format(checks=checks, printed=printed)]
     elif passed:
         parts += ["No comparison fails." if rows else "There is nothing to compare."]
         parts += ["The verdict of all: snakemake --cores 2"]

@@ -19,6 +19,7 @@ rule report:
     input:
         versions="results/versions.json",
         ledger="results/ledger.csv",
+        accepted="data/accepted/verdicts.csv",
         in_nature="results/in_nature.csv",
         verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
         residuals=expand("results/residuals/{judged}.csv", judged=FIGURES),

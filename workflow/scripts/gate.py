@@ -6,12 +6,14 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import gate, tables, verdict_table
+from stronge1994 import accepted, gate, tables, verdict_table
 
 table = snakemake.input.get("ledger")
 ledger = tables.read_rows(table) if table else []
 verdicts = verdict_table.gather(snakemake.input.verdicts)
-faults = gate.faults(verdicts, ledger, snakemake.params.rows, snakemake.params.get("entries", []))
+known = tables.read_rows(snakemake.input.accepted, accepted.COLUMNS)
+entries = snakemake.params.get("entries", [])
+faults = gate.faults(verdicts, ledger, snakemake.params.rows, entries, known)
 unmade = gate.unmade(verdicts)
 if faults or unmade:
     rows = f"{len(faults)} rows of the tables fail or are missing"

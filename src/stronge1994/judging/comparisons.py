@@ -61,19 +61,6 @@ class KnownDifference:
 
 
 @dataclass(frozen=True)
-class OrPrinted:
-    """What a printed curve may follow in place of the model: the printed equations.
-
-    `curve` selects theirs, which has only the places where they differ. `entry` of the ledger says
-    what is wrong with these `equations`.
-    """
-
-    curve: dict[str, Any]
-    equations: str
-    entry: str
-
-
-@dataclass(frozen=True)
 class Allowance:
     """How far the model may be off by its form, in units of the axes."""
 
@@ -88,9 +75,8 @@ class Comparison:
     `curve` selects curves by their columns, see `tables.select`; empty, each point of the reference
     selects its own by its labels. Of the reference are compared only the points with these labels,
     `points`, in the `regime`. `says` is what the reference says, for readers. A comparison, like a
-    reference, may be for some `settings` of the figure alone. A known difference has `bounds` about
-    what was found, of its `rms`, `max` or `difference` in the unit of the axis. They guard against
-    changes, and say nothing on what is right. A `scale` is fitted, see `judging.scales`.
+    reference, may be for some `settings` of the figure alone. `differs` says what is known of a
+    difference, should there be one. A `scale` is fitted, see `judging.scales`.
     """
 
     name: str
@@ -109,8 +95,6 @@ class Comparison:
     limit: float = 1.0  # in the unit of the axis, of a law
     settings: dict[str, Any] = field(default_factory=dict)
     differs: KnownDifference | None = None
-    or_printed: OrPrinted | None = None
-    bounds: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     @classmethod
     def of(

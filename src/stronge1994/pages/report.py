@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import pandas as pd
 from markupsafe import Markup
 
-from stronge1994 import figure_table, gate, tables, verdict_table, versions, words
+from stronge1994 import accepted, figure_table, gate, tables, verdict_table, versions, words
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
@@ -32,9 +32,9 @@ from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
 
 MEANING = {
-    Verdict.FAILS: "outside its tolerance, or a known difference has changed: the run fails",
-    Verdict.DIFFERS: "as known: the cause is known or unknown, or the scatter of the data is not "
-    "published, so that nobody can say what a difference means",
+    Verdict.FAILS: "a check of our solver is outside its tolerance: the run fails",
+    Verdict.DIFFERS: "outside the tolerance: the cause is known or unknown, or the scatter of the "
+    "data is not published, so that nobody can say what a difference means",
     Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, "
     f"{100 * LARGEST_ERROR:g} % too large; or chance would explain the distances, but seldom",
     Verdict.NOT_COMPARED: "points, most of them of printed curves, are awaited, or are for other "
@@ -66,7 +66,6 @@ def page(values: TemplateValues) -> str:
         lapsed=outcome.failing(values["ledger"]),
         grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
         unmade=gate.unmade(verdicts),
-        known=verdict_table.known(verdicts),
         in_paper=[row for row in table if is_of_paper(row.figure)],
         beyond=[row for row in table if not is_of_paper(row.figure) and row.others],
         of_solver=figure_table.of_solver(verdicts),
@@ -207,6 +206,7 @@ def write(
         for name, picture in pictures.items()
     }
     run = versions.of_run(given.versions)
+    known = tables.read_rows(given.accepted, accepted.COLUMNS)
     values = {
         "verdicts": shown,
         "table": table,
@@ -220,7 +220,7 @@ def write(
         "significance": config["significance"],
         "doubt": DOUBT * config["significance"],
         "run": run,
-        "faults": gate.faults(verdicts, ledger, rows, entries),
+        "faults": gate.faults(verdicts, ledger, rows, entries, known),
     }
     pages = {
         made.report: page(values),

@@ -39,6 +39,8 @@ __all__ = [
 Source: TypeAlias = dict[str, Any]
 Schema: TypeAlias = Mapping[str, Any]
 
+# Folders of data/ with tables of impacts, and with what was accepted of a run.
+NO_SOURCES = {"scenes", "accepted"}
 # Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
 # A measured series may have a larger one: that is how it was measured.
 LARGEST_SIGMA = 0.01
@@ -173,8 +175,8 @@ _parsed = functools.cache(strict_yaml.load)  # a start reads some files twice
 
 
 def load_all(data: str | Path, schema: Schema) -> dict[str, Source]:
-    """Load every source in the folder `data`: `{source: contents}`. The folder `scenes` is none."""
-    folders = [Path(data, name) for name in sorted(_visible(Path(data)) - {"scenes"})]
+    """Load every source in the folder `data`: `{source: contents}`. `NO_SOURCES` are none."""
+    folders = [Path(data, name) for name in sorted(_visible(Path(data)) - NO_SOURCES)]
     for folder in folders:
         if not (folder / "source.yaml").is_file():
             raise SourceError(f"{folder}: no source: allowed are folders with a source.yaml")

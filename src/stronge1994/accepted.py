@@ -1,0 +1,106 @@
+"""The accepted table, data/accepted/verdicts.csv: what somebody has looked at and found right.
+
+A verdict says what a comparison found. Whether a run passes is another question, which this table
+answers: a row must be as it was when a person accepted it. Then a known difference can neither grow
+nor shrink unseen. `snakemake accept` writes the table; its changes are read in a diff of git.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from stronge1994 import tables
+from stronge1994.tables import Row
+from stronge1994.verdict_table import Verdict, Why, problem
+
+PATH = "data/accepted/verdicts.csv"
+COLUMNS = ["name", "verdict", "why", "size", "unit", "points"]
+# Sizes of other machines are alike up to this share of the larger, or up to this rounding.
+SHARE, ROUNDING = 1e-3, 1e-12
+ACCEPT = "To accept what this run found: snakemake --cores 2 accept"
+
+
+def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Row]:
+    """Rows of the accepted table, from the tables of a run.
+
+    The size of a comparison is its root mean square distance, that of a stated fact the value
+    found; a law has a limit of its own, and no size here. Of an entry of the ledger it is the
+    number found.
+
+    >>> row = dict.fromkeys(COLUMNS, "") | {"comparison": "fig6-rebound", "size": "3.1e-16"}
+    >>> of_run([row], [])[0]["size"]
+    '0'
+    """
+    found = [{**row, "name": row["comparison"]} for row in verdicts]
+    found += [
+        {"name": row["entry"], "verdict": row["verdict"], "size": row["found"]} for row in ledger
+    ]
+    own = [{column: row.get(column, "") for column in COLUMNS} for row in found]
+    return [row | {"size": _without_rounding(row["size"])} for row in own]
+
+
+def _without_rounding(size: str) -> str:
+    return "0" if size and abs(float(size)) < ROUNDING else size
+
+
+def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[Row]) -> list[str]:
+    """Rows that are not as accepted, a line for each; those that FAIL are not looked at.
+
+    A comparison that nobody has accepted must not differ. So has one whose points were still
+    awaited. What cannot be compared with the settings of a run has not changed.
+
+    >>> was = dict.fromkeys(COLUMNS, "") | {"name": "a", "verdict": "differs", "size": "1.5"}
+    >>> now = dict.fromkeys(COLUMNS, "") | {"comparison": "a", "verdict": "differs", "size": "1.6"}
+    >>> changes([now], [], [was])
+    ['changed: a: size 1.5 -> 1.6']
+    """
+    known = {row["name"]: row for row in accepted if row["why"] != Why.AWAITED}
+    full = {row["comparison"]: row for row in verdicts}
+    told = []
+    for row in of_run(verdicts, ledger):
+        if row["verdict"] == Verdict.FAILS or row["why"] == Why.SETTINGS:
+            continue
+        if row["name"] in known:
+            if changed := "; ".join(_changed(known[row["name"]], row)):
+                told.append(f"changed: {row['name']}: {changed}")
+        elif row["verdict"] == Verdict.DIFFERS:
+            told.append(f"differs, and nobody has accepted it: {problem_of(full[row['name']])}")
+    return told
+
+
+def problem_of(row: Row) -> str:
+    """A comparison, and why it differs."""
+    return f"{row['comparison']}: {problem(row)}"
+
+
+def _changed(was: Row, now: Mapping[str, str]) -> Iterator[str]:
+    """What of a row is not as accepted, in words."""
+    for column in ("verdict", "why", "points"):
+        if was[column] != now[column]:
+            yield f"{column} {was[column] or 'none'} -> {now[column] or 'none'}"
+    if not _alike(was["size"], now["size"]) or was["unit"] != now["unit"]:
+        unit = now["unit"] if now["unit"] != "1" else ""
+        of_was = was["unit"] if was["unit"] not in ("1", now["unit"]) else ""
+        sizes = f"size {was['size'] or 'none'} {of_was}".rstrip(), f"{now['size'] or 'none'} {unit}"
+        yield " -> ".join(sizes).rstrip()
+
+
+def _alike(was: str, now: str) -> bool:
+    if was and now:
+        return math.isclose(float(was), float(now), rel_tol=SHARE, abs_tol=ROUNDING)
+    return was == now
+
+
+def write(verdicts: Sequence[Row], ledger: Sequence[Row]) -> None:
+    """Accept what a run has found.
+
+    No check of our solver that FAILS is accepted, nor a run whose settings are not ours.
+    """
+    bad = [row for row in verdicts if row["verdict"] == Verdict.FAILS or row["why"] == Why.SETTINGS]
+    bad += [row for row in ledger if row["holds"] == "no"]
+    if bad:
+        names = ", ".join(row.get("comparison") or row["entry"] for row in bad[:4])
+        raise ValueError(
+            f"{len(bad)} rows cannot be accepted, as they fail or are not compared with these "
+            f"settings: {names}"
+        )
+    tables.write_rows(PATH, of_run(verdicts, ledger), COLUMNS)
