@@ -61,9 +61,10 @@ REPRODUCTION = {
     "imports": "",
     "versions": "",
     "logs": "",
-    "gate": "tables figure_table verdict_table ledger",
+    "accepted": "tables verdict_table",
+    "gate": "accepted tables figure_table verdict_table ledger",
     "pages": "common bodies export tables reference_data figures formulas goodness judging"
-    " ledger settings gate versions names words figure_table verdict_table"
+    " ledger settings accepted gate versions names words figure_table verdict_table"
     " jinja2 pandas matplotlib",
 }
 # The figures have one folder each, and in it files that solve and files that draw, or that judge

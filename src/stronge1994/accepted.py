@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from stronge1994 import tables
-from stronge1994.tables import Row
+from stronge1994.tables import Row, with_unit
 from stronge1994.verdict_table import Verdict, Why, problem
 
 PATH = "data/accepted/verdicts.csv"
@@ -77,11 +77,9 @@ def _changed(was: Row, now: Mapping[str, str]) -> Iterator[str]:
     for column in ("verdict", "why", "points"):
         if was[column] != now[column]:
             yield f"{column} {was[column] or 'none'} -> {now[column] or 'none'}"
+    sizes = [row["size"] and with_unit(float(row["size"]), row["unit"]) for row in (was, now)]
     if not _alike(was["size"], now["size"]) or was["unit"] != now["unit"]:
-        unit = now["unit"] if now["unit"] != "1" else ""
-        of_was = was["unit"] if was["unit"] not in ("1", now["unit"]) else ""
-        sizes = f"size {was['size'] or 'none'} {of_was}".rstrip(), f"{now['size'] or 'none'} {unit}"
-        yield " -> ".join(sizes).rstrip()
+        yield f"size {sizes[0] or 'none'} -> {sizes[1] or 'none'}"
 
 
 def _alike(was: str, now: str) -> bool:

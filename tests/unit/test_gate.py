@@ -29,7 +29,7 @@ ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {"entry": "eq-25", "verdict": "wron
 )
 def test_a_row_that_fails_or_is_missing_is_a_fault(changes, fault):
     verdict, entry = VERDICT | changes[0], ENTRY | changes[1]
-    found = gate.faults([verdict], [entry], ["fig6-rebound"], ["eq-25"])
+    found = gate.faults([verdict], [entry], ["fig6-rebound"], ["eq-25"], [])
     assert len(found) == bool(fault) and all(words.startswith(fault) for words in found)
 
 

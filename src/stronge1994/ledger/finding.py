@@ -124,6 +124,8 @@ def judge(finding: Finding, entry: Mapping[str, Any]) -> str:
     >>> judge(Finding(0.0, 1e-14), entry)
     'recorded as wrong, found confirmed'
     """
+    if np.isnan(finding.value):
+        return "it found no number"
     complaints = [_complaint(entry, verdict(finding.value, entry["confirms"]))]
     if finding.corrected is not None and not finding.corrected <= EXACT:
         complaints.append(f"the corrected formula is off by {finding.corrected:.2g}")
