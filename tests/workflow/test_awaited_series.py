@@ -73,7 +73,7 @@ def judged(inventory, curves, tmp_path):
             table = pd.DataFrame({known.x.name: x, known.y.name: y}).to_csv(index=False)
             said = {"sigma_x": known.x.sigma, "sigma_y": known.y.sigma} | PICTURE.get(name, {})
             (tmp_path / f"{name}.csv").write_text(head(**said) + table)
-        found = inventory | {source: reference_data.load(tmp_path / source, schema("source"))}
+        found = inventory | {source: reference_data.load(tmp_path / source)}
         references = figure_settings.references(CONFIG, found, figure)
         path = curves / f"{figure}.csv"
         entries = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]] for name in points}

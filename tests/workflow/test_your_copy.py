@@ -337,7 +337,7 @@ def rows_of_a_run(folder, begin, first_run):
     """Rows of a run for a folder of data/, by comparison, of those whose names begin so."""
     stated = config()["comparisons"].items()
     entries = {name: entry for name, entry in stated if name.startswith(begin)}
-    found = sources() | {folder.name: reference_data.load(folder, schema("source"))}
+    found = sources() | {folder.name: reference_data.load(folder)}
     figure = begin.split("-")[0]
     references = figure_settings.references(config(), found, figure)
     curves = first_run[0] / f"results/curves/{figure}.csv"

@@ -57,12 +57,11 @@ ONLY = {
 }
 # Fewest and most columns of a law.
 COLUMNS = {Metric.SMALL: (1, 2), Metric.CONTRACTION: (2, 2)}
+LEAST_REASON = 10  # characters
 # Largest limit of a contraction, and largest allowance for a model as a share of the range of its
 # axis: with more a comparison would judge nothing.
 LARGEST_EXPANSION, LARGEST_ALLOWANCE = 0.01, 0.02
-Selection: TypeAlias = Annotated[
-    dict[str, str | Number | list[str | Number]], Field(min_length=1)
-]
+Selection: TypeAlias = dict[str, str | Number | list[str | Number]]
 
 
 @dataclass(frozen=True, config=CONFIG)
@@ -90,7 +89,7 @@ class KnownDifference(Declared):
     why: Literal["cause known", "cause unknown", "scatter not published"]
     entry: str = ""
     note: Annotated[str, Field(min_length=5)] = ""
-    paper: Literal["", "wrong", "vague"] = ""
+    paper: Literal["wrong", "vague"] | None = None
 
     def faults(self) -> Iterator[str]:
         """Whether it says where more stands."""
@@ -126,13 +125,13 @@ class Comparison(Declared):
 
     name: str
     metric: Metric
-    reason: Annotated[str, Field(min_length=10)]
+    reason: str
     figure: str = ""  # or scene_ and the name of a scene
     says: Annotated[str, Field(min_length=4)] = ""
     reference: Series | Fact | None = None
     curve: Selection = field(default_factory=dict)
     points: dict[str, str | Number] = field(default_factory=dict)
-    regime: Literal["", "initial stick", "slip and stick", "slip throughout"] = ""
+    regime: Literal["initial stick", "slip and stick", "slip throughout"] | None = None
     allowance: Allowance | None = None
     scale: Annotated[str, Field(min_length=3)] = ""
     landmark: Landmark | None = None
@@ -151,13 +150,15 @@ class Comparison(Declared):
         for key, metrics in ONLY.items():
             if getattr(self, key) and self.metric not in metrics:
                 yield f"{key}: allowed with metric {' or '.join(metrics)}, not {self.metric}"
+        if len(self.reason) < LEAST_REASON:
+            yield f"reason = {self.reason!a}: allowed are {LEAST_REASON} characters or more"
         least, most = COLUMNS.get(self.metric, (0, len(self.columns)))
         if self.columns and not least <= len(self.columns) <= most:
             yield f"columns = {self.columns}: allowed are {least} to {most} with {self.metric}"
         if self.metric == Metric.CONTRACTION and self.limit > LARGEST_EXPANSION:
             yield f"limit = {self.limit:g}: allowed is up to {LARGEST_EXPANSION:g}"
         if self.range and not self.range[0] < self.range[1]:
-            yield f"range = {list(self.range)}: the first number must be the smaller"
+            yield f"range = [{self.range[0]:g}, {self.range[1]:g}]: the first number must be the smaller"
         known = self.reference
         if known and isinstance(known, Fact) != (self.metric == Metric.LANDMARK):
             yield f"metric = {self.metric}: a landmark needs a fact, all others a series"
@@ -246,15 +247,13 @@ class Comparison(Declared):
         chosen = points[tables.where(points, **self.points) & (x >= low) & (x < high)]
         if chosen.empty:
             raise ValueError("the reference has no such points")
-        along = self._sigma(series.x, chosen, "x")
-        both = [[along, self._sigma(y, chosen, "y")] for y in series.ordinates]
-        return chosen, [np.transpose(sigmas) for sigmas in both]
-
-    def _sigma(self, axis: Axis, points: Table, which: str) -> Array:
-        sigmas = axis.sigmas(points)
-        if not np.all(sigmas):
+        axes = {"x": [series.x], "y": series.ordinates}
+        sigmas = {key: [axis.sigmas(chosen) for axis in own] for key, own in axes.items()}
+        if not all(np.all(size) for own in sigmas.values() for size in own):
             raise ValueError("a point that is compared has an uncertainty of 0")
-        return np.hypot(sigmas, self.allowed(which))
+        along = np.hypot(sigmas["x"][0], self.allowed("x"))
+        both = [[along, np.hypot(size, self.allowed("y"))] for size in sigmas["y"]]
+        return chosen, [np.transpose(sizes) for sizes in both]
 
     def _window(self, series: Series) -> tuple[float, float]:
         """Where its regime begins and ends on the axis, by the parameters of the source."""

@@ -18,6 +18,7 @@ __all__ = [
     "Axis",
     "Fact",
     "Faults",
+    "Inventory",
     "Series",
     "SourceError",
     "load",

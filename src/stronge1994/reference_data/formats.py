@@ -8,7 +8,14 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Self, TypeAlias, TypeVar
 
-from pydantic import ConfigDict, Field, TypeAdapter, ValidationError, ValidationInfo, model_validator
+from pydantic import (
+    ConfigDict,
+    Field,
+    TypeAdapter,
+    ValidationError,
+    ValidationInfo,
+    model_validator,
+)
 from pydantic.dataclasses import dataclass
 
 from planarimpact.common import checks
@@ -77,9 +84,11 @@ class Declared:
 def read(kind: type[Kind], document: Any, where: str | Path, **ours: Any) -> Kind:
     """What a file states, with fields of `ours`, as an object of a class that is `Declared`.
 
-    >>> read(Declared, {"colour": 1}, "ball.yaml")
+    >>> from stronge1994.reference_data.series import Parameter
+    >>> read(Parameter, {"value": "1", "unit": "N", "uncertainty": None}, "ball.yaml")
     Traceback (most recent call last):
-    stronge1994.reference_data.formats.SourceError: ball.yaml: colour: no such key; allowed are
+    stronge1994.reference_data.texts.SourceError: ball.yaml: value = '1': allowed is a number
+    ball.yaml: origin: missing
     """
     whole = {**document, **ours} if ours else document
     keys: dict[Any, Any] = {"ours": set(ours)}
@@ -87,7 +96,8 @@ def read(kind: type[Kind], document: Any, where: str | Path, **ours: Any) -> Kin
         return TypeAdapter(kind).validate_python(whole, context=keys)
     except ValidationError as error:
         told = in_words(error, whole, keys)
-        raise SourceError("\n".join(f"{where}: {line}" for line in told)) from None
+        mark = "." if ": " in f"{where}" else ": "  # where is a file, or a place in it
+        raise SourceError("\n".join(f"{where}{mark}{line}" for line in told)) from None
 
 
 def in_words(error: ValidationError, document: Any, keys: Mapping[Any, Any]) -> list[str]:
@@ -112,7 +122,9 @@ def in_words(error: ValidationError, document: Any, keys: Mapping[Any, Any]) -> 
             told[f"{place}: no such key; allowed are {keys[id(parent)]}"] = []
         else:
             allowed = ALLOWED.get(kind, one["msg"]).format(**one.get("ctx", {})).replace("'", "")
-            told.setdefault(f"{place} = {shown(one['input'])}: allowed is", []).append(allowed)
+            told.setdefault(
+                f"{place or 'all of it'} = {shown(one['input'])}: allowed is", []
+            ).append(allowed)
     lines = (" ".join(filter(None, [what, " or ".join(of)])) for what, of in told.items())
     return [checks.in_ascii(line) for line in lines]
 

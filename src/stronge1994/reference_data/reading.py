@@ -82,7 +82,9 @@ def checked(entry: Mapping[str, Any], file: Path) -> dict[str, Any]:
     """What `filled` gave, with its number of points: none with such a sigma, or there twice."""
     series, faults = Series(**entry), Faults()
     assert series.calibration is not None
-    for where, axis, of_mark in zip("xy", series.axes.values(), series.calibration.sigma, strict=True):
+    for where, axis, of_mark in zip(
+        "xy", series.axes.values(), series.calibration.sigma, strict=True
+    ):
         least = SMALLEST_SIGMA * (axis.range[1] - axis.range[0])
         for key, sigma in ((f"sigma_{where}", axis.sigma), (f"mark_sigma_{where}", of_mark)):
             faults += [f"{file}: {key} = {refusal}" for refusal in axis.refusals(sigma)]

@@ -15,7 +15,15 @@ from pydantic.dataclasses import dataclass
 from planarimpact.common.arrays import Array
 from stronge1994.reference_data import texts
 from stronge1994.reference_data.calibration import Calibration
-from stronge1994.reference_data.formats import CONFIG, Declared, Number, Positive, Span, Truth, Whole
+from stronge1994.reference_data.formats import (
+    CONFIG,
+    Declared,
+    Number,
+    Positive,
+    Span,
+    Truth,
+    Whole,
+)
 from stronge1994.reference_data.texts import COMMAS, SourceError
 from stronge1994.tables import Table, with_unit
 
@@ -159,8 +167,7 @@ class Fact(Declared):
 
 
 Several: TypeAlias = Annotated[
-    Annotated[Axis, Tag("one")]
-    | Annotated[tuple[Axis, ...], Field(min_length=2), Tag("several")],
+    Annotated[Axis, Tag("one")] | Annotated[tuple[Axis, ...], Field(min_length=2), Tag("several")],
     Discriminator(lambda y: "several" if isinstance(y, list | tuple) else "one"),
 ]
 

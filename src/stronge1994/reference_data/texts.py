@@ -94,7 +94,10 @@ def cells_of(path: str, columns: list[str]) -> tuple[list[int], dict[str, list[s
             line = text.count("\n", 0, row.start()) + 1
             problem = f"line {line}: {row[0]!a} has {COMMAS}"
         raise SourceError(f"{path}, {problem}") from None
-    found, bare = [_squeezed(cell) for cell in header], [name.partition(" [")[0] for name in columns]
+    found, bare = (
+        [_squeezed(cell) for cell in header],
+        [name.partition(" [")[0] for name in columns],
+    )
     cells = {}
     for column, name in zip(columns, bare, strict=True):
         known = {_squeezed(column), _squeezed(name if bare.count(name) == 1 else column)}

@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from stronge1994.names import SCENE
-from stronge1994.reference_data import Series
+from stronge1994.reference_data import Inventory, Series, reference
 from stronge1994.settings import figures
-from stronge1994.settings.config import SHARED, Config, Entry, Inventory, reference, table_of
+from stronge1994.settings.config import SHARED, Config, Entry, table_of
 
 
 def physics(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:

@@ -6,14 +6,101 @@ import itertools
 import os
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import field, fields
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import Discriminator, Field, Tag
+from pydantic.dataclasses import dataclass
 
 from stronge1994 import reference_data
+from stronge1994.judging.comparisons import Comparison
+from stronge1994.reference_data import Faults, SourceError, formats
+from stronge1994.reference_data.formats import CONFIG, Declared, Number, Truth
 
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 FOLDER = Path(__file__).parents[1] / "figures"
 PROJECT = Path(__file__).parents[3]
+KEYS = {own.name for own in fields(Comparison)}  # of a comparison
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Slide(Declared):
+    """A slide shows one panel of the figure, without its letter, below a title.
+
+    `only` has the entries of the legend that it has, each without its numbers; without it all.
+    """
+
+    panel: Annotated[str, Field(pattern="^[a-z]$")]
+    title: Annotated[str, Field(min_length=10)]
+    only: Annotated[list[str], Field(min_length=1)] = field(default_factory=list)
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Explorer(Declared):
+    """The explorer has a link to the impacts of the figure; what its settings leave open, in deg."""
+
+    friction: Number | None = None
+    angle: Number | None = None
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Allowed(Declared):
+    """What a setting may be: a JSON schema with these keys, or a kind of config.schema.yaml."""
+
+    type: Literal["number", "integer", "boolean", "string", "array"] | None = None
+    ref: Annotated[str | None, Field(alias="$ref", pattern="^#/[$]defs/[a-z_]+$")] = None
+    enum: list[Any] | None = None
+    minimum: Number | None = None
+    maximum: Number | None = None
+    exclusiveMinimum: Number | None = None  # noqa: N815
+    exclusiveMaximum: Number | None = None  # noqa: N815
+    items: "Allowed | None" = None
+    prefixItems: "list[Allowed] | None" = None  # noqa: N815
+    minItems: int | None = None  # noqa: N815
+    maxItems: int | None = None  # noqa: N815
+    uniqueItems: Truth | None = None  # noqa: N815
+    ascending: Truth | None = None  # each number larger than the one before
+    description: str = ""
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Setting(Declared):
+    """A setting; of a source `parameters` are those that the curves need.
+
+    With `uncertain` there are curves, too, with each of these off by its sigma.
+    """
+
+    value: Any
+    allowed: Annotated[
+        Annotated[str, Tag("kind")] | Annotated[Allowed, Tag("schema")],
+        Discriminator(lambda own: "schema" if isinstance(own, dict) else "kind"),
+    ]
+    parameters: list[str] = field(default_factory=list)
+    uncertain: Truth = False
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Figure(Declared):
+    """A figure.yaml. `shows` is one line, for figures/README.md.
+
+    `shared` are groups of the physics that it shares with others; `nodes` says whether its curves
+    pass through the points of the references. `draws` has series that its drawing gets too, beside
+    those published that it compares; computed ones, or of another figure. One that is `timed`
+    measures time: `snakemake figures` leaves it out. In `comparisons` an entry with `each` stands
+    for several, see `expanded`.
+    """
+
+    shows: Annotated[str, Field(min_length=10)]
+    caption: Annotated[str, Field(min_length=30)]
+    settings: dict[str, dict[str, Any]]
+    comparisons: dict[str, dict[str, Any]]
+    shared: list[Literal["mass_ratio", "stiffness_ratio"]] = field(default_factory=list)
+    nodes: Truth = False
+    draws: list[str] = field(default_factory=list)
+    slide: Slide | None = None
+    timed: Truth = False
+    explorer: Explorer | None = None
 
 
 @functools.cache
@@ -21,25 +108,45 @@ def stated() -> dict[str, Stated]:
     """Every figure.yaml, checked; the figures of the paper first, by number."""
     # `shared` is code for several figures. A folder that git has emptied may still hold bytecode.
     names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
-    contents = {}
+    contents, faults = {}, Faults()
     for name in sorted(names - {"shared", "__pycache__"}, key=place):
-        path = _file(name)
-        if not re.fullmatch("(?!scene_)[a-z][a-z0-9_]*", name):
-            problem = "allowed are a to z, 0 to 9 and _, and not scene_ at the beginning"
-            raise reference_data.SourceError(f"{path.parent}: {problem}")
-        contents[name] = reference_data.load_yaml(path)
-        reference_data.refuse_invalid(contents[name], schema("figure"), path)
-        settings = contents[name]["settings"]
-        own, kinds = schema_of(settings), schema("config")["$defs"]
-        for kind in re.findall(r"#/\$defs/(\w+)", f"{own}"):
-            if kind not in kinds:
-                problem = f"{kind!a} is no kind of values; allowed are {', '.join(kinds)}"
-                raise reference_data.SourceError(f"{path}: settings: allowed: {problem}")
-        reference_data.refuse_invalid(values(settings), own | {"$defs": kinds}, f"{path}: settings")
-        for file in ("curves.py", "drawing.py"):
-            if not (FOLDER / name / file).is_file():
-                raise reference_data.SourceError(f"{path.parent / file}: missing")
+        with faults:
+            contents[name] = _read(name)
+    faults.refuse()
     return contents
+
+
+def _read(name: str) -> Stated:
+    path = file_of(name)
+    if not re.fullmatch("(?!scene_)[a-z][a-z0-9_]*", name):
+        problem = "allowed are a to z, 0 to 9 and _, and not scene_ at the beginning"
+        raise SourceError(f"{path.parent}: {problem}")
+    content, faults = reference_data.load_yaml(path), Faults()
+    with faults:
+        formats.read(Figure, content, path)
+        for key, setting in _each_setting(content["settings"]):
+            with faults:
+                formats.read(Setting, setting, f"{path}: settings.{key}")
+    for file in ("curves.py", "drawing.py"):
+        if not path.with_name(file).is_file():
+            faults.append(f"{path.with_name(file)}: missing")
+    faults.refuse()
+    own, kinds = schema_of(content["settings"]), config_schema()["$defs"]
+    for kind in set(re.findall(r"#/\$defs/(\w+)", f"{own}")) - set(kinds):
+        problem = f"{kind!a} is no kind of values; allowed are {', '.join(kinds)}"
+        raise SourceError(f"{path}: settings: allowed: {problem}")
+    settings = values(content["settings"])
+    reference_data.refuse_invalid(settings, own | {"$defs": kinds}, f"{path}: settings")
+    return content
+
+
+def _each_setting(settings: Mapping[str, Any], group: str = "") -> Iterator[tuple[str, Any]]:
+    """Settings by their names, those of a group behind its name and a dot."""
+    for key, node in settings.items():
+        if isinstance(node, dict) and not {"value", "allowed"} & set(node):
+            yield from _each_setting(node, f"{group}{key}.")
+        else:
+            yield f"{group}{key}", node
 
 
 def place(name: str) -> tuple[bool, int, str]:
@@ -89,18 +196,15 @@ def schema_of(settings: Mapping[str, Any]) -> dict[str, Any]:
 def comparisons() -> dict[str, dict[str, Any]]:
     """All comparisons, `{FIGURE-NAME: entry}`, each with the name of its figure."""
     entries: dict[str, dict[str, Any]] = {}
-    own = definitions()["comparison"] | {"$defs": definitions()}
     for figure, content in stated().items():
         for pattern, common in content["comparisons"].items():
-            where = f"{_file(figure)}: comparisons.{pattern}"
+            where = f"{file_of(figure)}: comparisons.{pattern}"
             for name, entry in expanded(pattern, common):
                 if placeholder := re.search(r"(?<!mathrm)\{\w*\}", f"{name} {entry}"):
-                    raise reference_data.SourceError(f"{where}: `each` has no {placeholder[0]}")
-                whole = {"figure": figure} | entry
-                reference_data.refuse_invalid(whole, own, where)
+                    raise SourceError(f"{where}: `each` has no {placeholder[0]}")
                 if f"{figure}-{name}" in entries:
-                    raise reference_data.SourceError(f"{where}: {name!a} stands twice")
-                entries[f"{figure}-{name}"] = whole
+                    raise SourceError(f"{where}: {name!a} stands twice")
+                entries[f"{figure}-{name}"] = {"figure": figure} | entry
     return entries
 
 
@@ -118,12 +222,11 @@ def expanded(name: str, entry: Mapping[str, Any]) -> Iterator[tuple[str, dict[st
     e-0.5-slip-throughout {'curve': {'model': 'lumped', 'e': 0.5}, 'regime': 'slip throughout'}
     """
     common = {key: value for key, value in entry.items() if key != "each"}
-    keys = definitions()["comparison"]["properties"]
     each = entry.get("each", {})
     if isinstance(each, dict):
         each = [dict(zip(each, case, strict=True)) for case in itertools.product(*each.values())]
     for case in each:
-        own = {key: value for key, value in case.items() if key in keys}
+        own = {key: value for key, value in case.items() if key in KEYS}
         yield _filled(name, case).replace(" ", "-"), _filled(common | own, case)
 
 
@@ -139,16 +242,12 @@ def _filled(node: Any, case: Mapping[str, Any]) -> Any:
     return node
 
 
-def definitions() -> dict[str, Any]:
-    """The `$defs` of comparisons in the schema of a config."""
-    return {key: schema("figure")["$defs"][key] for key in ("comparison", "span")}
-
-
 @functools.cache
-def schema(name: str) -> dict[str, Any]:
-    """The schema of a `config` or of a `figure`, as in workflow/schemas."""
-    return reference_data.load_yaml(PROJECT / f"workflow/schemas/{name}.schema.yaml")
+def config_schema() -> dict[str, Any]:
+    """The schema of the config, with kinds of values under `$defs`."""
+    return reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")
 
 
-def _file(figure: str) -> Path:
+def file_of(figure: str) -> Path:
+    """The figure.yaml of a figure."""
     return Path(os.path.relpath(FOLDER / figure / "figure.yaml"))
