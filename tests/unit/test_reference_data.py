@@ -9,7 +9,7 @@ from stronge1994 import reference_data
 from stronge1994.judging import comparisons
 from stronge1994.reference_data.calibration import Calibration
 from stronge1994.settings import config as configuration
-from tests.workflow.project import ROOT, config, head, schema, sources
+from tests.workflow.project import ROOT, config, head, sources
 
 AXES = {
     "x": {"column": "incidence", "unit": "1", "sigma": 0.02, "range": [0, 20]},

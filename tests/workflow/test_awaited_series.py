@@ -16,7 +16,7 @@ from stronge1994 import settings as figure_settings
 from stronge1994.figures.fig8 import curves as fig8
 from stronge1994.judging import compare
 from stronge1994.reference_data import Series
-from tests.workflow.project import ROOT, awaited, config, head, schema
+from tests.workflow.project import ROOT, awaited, config, head
 
 CONFIG = config()
 RUBBER, LEWIS = "johnson1983/rubber_sphere", "lewis_rogers1988"

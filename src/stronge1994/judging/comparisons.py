@@ -12,7 +12,7 @@ from pydantic.dataclasses import dataclass
 from planarimpact.common.arrays import Array
 from stronge1994 import reference_data, tables
 from stronge1994.names import STRONGE
-from stronge1994.reference_data import Axis, Fact, Series
+from stronge1994.reference_data import Fact, Series
 from stronge1994.reference_data.formats import CONFIG, Declared, Number, Span
 from stronge1994.tables import Table
 from stronge1994.verdict_table import Group, Why
@@ -158,7 +158,8 @@ class Comparison(Declared):
         if self.metric == Metric.CONTRACTION and self.limit > LARGEST_EXPANSION:
             yield f"limit = {self.limit:g}: allowed is up to {LARGEST_EXPANSION:g}"
         if self.range and not self.range[0] < self.range[1]:
-            yield f"range = [{self.range[0]:g}, {self.range[1]:g}]: the first number must be the smaller"
+            ends = ", ".join(f"{end:g}" for end in self.range)
+            yield f"range = [{ends}]: the first number must be the smaller"
         known = self.reference
         if known and isinstance(known, Fact) != (self.metric == Metric.LANDMARK):
             yield f"metric = {self.metric}: a landmark needs a fact, all others a series"

@@ -40,9 +40,10 @@ LEFT = re.compile(r"[.].*|README.*|desktop[.]ini|thumbs[.]db|~[$].*|.*(~|[.]bak)
 
 
 def load(folder: Path) -> dict[str, Any]:
-    """Load and check a folder of data/; each series gets its `path`, None while awaited.
+    """Load and check a folder of data/.
 
-    An awaited series whose file is there becomes `digitised`, with what the head of the file says.
+    Each series gets the parameters of the source, and its `path`, None while awaited. An awaited
+    series whose file is there becomes `digitised`, with what the head of the file says.
     """
     path = folder / "source.yaml"
     stated = load_yaml(path)
@@ -50,6 +51,7 @@ def load(folder: Path) -> dict[str, Any]:
     for name, series in source.series.items():
         file, entry = folder / f"{name}.csv", stated["series"][name]
         entry["path"] = None
+        entry["parameters"] = {key: one.value for key, one in source.parameters.items()}
         with faults:
             if series.kind != "awaited":
                 entry["path"] = str(file)

@@ -67,7 +67,8 @@ class Declared:
     def _note_keys(cls, given: Any, info: ValidationInfo) -> Any:
         """Note the keys that a mapping of a file may have, for `in_words`."""
         if info.context is not None and isinstance(given, dict):
-            every = {own.alias or name: name for name, own in cls.__pydantic_fields__.items()}
+            declared: Any = cls  # Pydantic has noted its fields
+            every = {own.alias or name: name for name, own in declared.__pydantic_fields__.items()}
             allowed = ", ".join(key for key, name in every.items() if name not in cls.OURS)
             info.context[id(given)] = allowed
             if ours := set(given) & set(cls.OURS) - info.context["ours"]:

@@ -212,7 +212,7 @@ class Series(Declared):
     command: str = ""  # the one that computed it
     method: str = ""
     legend: str = ""
-    count: Whole | None = Field(None, alias="points")
+    count: Whole | None = Field(default=None, alias="points")
     OURS: ClassVar = ("path", "name", "parameters", "calibration", "overlay")
 
     def faults(self) -> Iterator[str]:
@@ -256,23 +256,23 @@ class Series(Declared):
         `SourceError` names file, line, column and value.
         """
         axes = {axis.name: axis for axis in self.axes.values()}
-        axes |= {own.name: own for axis in self.axes.values() if (own := axis.of_sigma)}
+        axes |= {size.name: size for axis in self.axes.values() if (size := axis.of_sigma)}
         lines, cells = texts.cells_of(str(self.path), [*self.labels, *axes])
         may_be_empty = {axis.name for axis in self.y} if isinstance(self.y, tuple) else set()
         columns: dict[str, Any] = {}
-        for name, column in cells.items():
-            empty = (name in may_be_empty or name in self.labels) and any(column)
-            good = [bool(NUMBER.fullmatch(cell)) or (empty and not cell) for cell in column]
+        for name, own in cells.items():
+            empty = (name in may_be_empty or name in self.labels) and any(own)
+            good = [bool(NUMBER.fullmatch(cell)) or (empty and not cell) for cell in own]
             if all(good):
-                columns[name] = [float(cell or math.nan) for cell in column]
+                columns[name] = [float(cell or math.nan) for cell in own]
             elif name in self.labels:
-                columns[name] = column
+                columns[name] = own
             else:
                 row = good.index(False)
                 problem = "is not a decimal number such as -0.05"
-                problem = f"has {COMMAS}" if {*",;"} & {*column[row]} else problem
+                problem = f"has {COMMAS}" if {*",;"} & {*own[row]} else problem
                 where = f"{self.path}, line {lines[row]}, column '{name}'"
-                raise SourceError(f"{where}: {column[row]!a} {problem}")
+                raise SourceError(f"{where}: {own[row]!a} {problem}")
         points = pd.DataFrame(columns)
         for column, axis in axes.items():
             if not (admitted := axis.admits(points[column])).all():
@@ -297,11 +297,6 @@ class Series(Declared):
             if all(axis.admits(tried[column]).all() for column, axis in axes.items()):
                 return guess
         return ""
-
-
-def of(name: str, entry: Mapping[str, Any]) -> Series | Fact:
-    """A series or a fact `source/name` from its entry in source.yaml; a series has a `kind`."""
-    return (Series if "kind" in entry else Fact)(**{**entry, "name": name})
 
 
 @dataclass(frozen=True, config=CONFIG)

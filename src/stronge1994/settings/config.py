@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
-from stronge1994.names import SCENE
 from stronge1994.judging.comparisons import Comparison
+from stronge1994.names import SCENE
 from stronge1994.reference_data import Faults, SourceError, formats, strict_yaml
 from stronge1994.settings import figures
 
@@ -88,7 +88,7 @@ def schema() -> dict[str, Any]:
 
 
 def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) -> None:
-    """Refuse an inadmissible config: a line for each fault, with field, value and what is allowed."""
+    """Refuse an inadmissible config: for each fault field, value and what is allowed."""
     reference_data.refuse_invalid(config, schema(), "config")
     faults, stated, names = Faults(), figures.comparisons(), judged(config)
     for figure, own in figures.stated().items():
@@ -126,7 +126,7 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
 def _check_setting(
     where: str, value: Any, setting: Mapping[str, Any], inventory: Inventory
 ) -> None:
-    """Refuse a source that there is not, or that lacks parameters, and a table that is no series."""
+    """Refuse a source that is not there or lacks parameters, and a table that is no series."""
     kind, needed = setting.get("allowed"), setting.get("parameters", [])
     if kind == "table" and "kind" not in reference_data.reference(inventory, value, where):
         raise SourceError(f"{where}: {value!a} is no series")

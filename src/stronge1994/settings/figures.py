@@ -10,13 +10,15 @@ from dataclasses import field, fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import ConfigDict, Discriminator, Field, Tag
+from pydantic.alias_generators import to_camel
 from pydantic.dataclasses import dataclass
+from typing_extensions import TypeAliasType
 
 from stronge1994 import reference_data
 from stronge1994.judging.comparisons import Comparison
 from stronge1994.reference_data import Faults, SourceError, formats
-from stronge1994.reference_data.formats import CONFIG, Declared, Number, Truth
+from stronge1994.reference_data.formats import CONFIG, Declared, Number, Truth, Whole
 
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 FOLDER = Path(__file__).parents[1] / "figures"
@@ -38,37 +40,37 @@ class Slide(Declared):
 
 @dataclass(frozen=True, config=CONFIG)
 class Explorer(Declared):
-    """The explorer has a link to the impacts of the figure; what its settings leave open, in deg."""
+    """The explorer has a link to its impacts; what its settings leave open, in deg."""
 
     friction: Number | None = None
     angle: Number | None = None
 
 
-@dataclass(frozen=True, config=CONFIG)
+@dataclass(frozen=True, config=CONFIG | ConfigDict(alias_generator=to_camel))
 class Allowed(Declared):
-    """What a setting may be: a JSON schema with these keys, or a kind of config.schema.yaml."""
+    """What a setting may be: keys of a JSON schema; of `ascending` numbers each is larger."""
 
     type: Literal["number", "integer", "boolean", "string", "array"] | None = None
     ref: Annotated[str | None, Field(alias="$ref", pattern="^#/[$]defs/[a-z_]+$")] = None
     enum: list[Any] | None = None
     minimum: Number | None = None
     maximum: Number | None = None
-    exclusiveMinimum: Number | None = None  # noqa: N815
-    exclusiveMaximum: Number | None = None  # noqa: N815
+    exclusive_minimum: Number | None = None
+    exclusive_maximum: Number | None = None
     items: "Allowed | None" = None
-    prefixItems: "list[Allowed] | None" = None  # noqa: N815
-    minItems: int | None = None  # noqa: N815
-    maxItems: int | None = None  # noqa: N815
-    uniqueItems: Truth | None = None  # noqa: N815
-    ascending: Truth | None = None  # each number larger than the one before
-    description: str = ""
+    prefix_items: "list[Allowed] | None" = None
+    min_items: Whole | None = None
+    max_items: Whole | None = None
+    unique_items: Truth | None = None
+    ascending: Truth | None = None
 
 
 @dataclass(frozen=True, config=CONFIG)
 class Setting(Declared):
-    """A setting; of a source `parameters` are those that the curves need.
+    """A setting, with a JSON schema or a kind of config.schema.yaml.
 
-    With `uncertain` there are curves, too, with each of these off by its sigma.
+    Of a source `parameters` are those that the curves need; with `uncertain` there are curves, too,
+    with each of these off by its sigma.
     """
 
     value: Any
@@ -78,6 +80,23 @@ class Setting(Declared):
     ]
     parameters: list[str] = field(default_factory=list)
     uncertain: Truth = False
+
+
+def _is_setting(node: Any) -> bool:
+    return not isinstance(node, dict) or bool({"value", "allowed"} & {*node})
+
+
+# Settings, and groups of them.
+Settings = TypeAliasType(  # type: ignore[misc]
+    "Settings",
+    dict[
+        str,
+        Annotated[
+            Annotated[Setting, Tag("one")] | Annotated["Settings", Tag("group")],  # type: ignore[misc]
+            Discriminator(lambda node: "one" if _is_setting(node) else "group"),
+        ],
+    ],
+)
 
 
 @dataclass(frozen=True, config=CONFIG)
@@ -93,7 +112,7 @@ class Figure(Declared):
 
     shows: Annotated[str, Field(min_length=10)]
     caption: Annotated[str, Field(min_length=30)]
-    settings: dict[str, dict[str, Any]]
+    settings: Settings
     comparisons: dict[str, dict[str, Any]]
     shared: list[Literal["mass_ratio", "stiffness_ratio"]] = field(default_factory=list)
     nodes: Truth = False
@@ -121,16 +140,11 @@ def _read(name: str) -> Stated:
     if not re.fullmatch("(?!scene_)[a-z][a-z0-9_]*", name):
         problem = "allowed are a to z, 0 to 9 and _, and not scene_ at the beginning"
         raise SourceError(f"{path.parent}: {problem}")
-    content, faults = reference_data.load_yaml(path), Faults()
-    with faults:
-        formats.read(Figure, content, path)
-        for key, setting in _each_setting(content["settings"]):
-            with faults:
-                formats.read(Setting, setting, f"{path}: settings.{key}")
     for file in ("curves.py", "drawing.py"):
         if not path.with_name(file).is_file():
-            faults.append(f"{path.with_name(file)}: missing")
-    faults.refuse()
+            raise SourceError(f"{path.with_name(file)}: missing")
+    content = reference_data.load_yaml(path)
+    formats.read(Figure, content, path)
     own, kinds = schema_of(content["settings"]), config_schema()["$defs"]
     for kind in set(re.findall(r"#/\$defs/(\w+)", f"{own}")) - set(kinds):
         problem = f"{kind!a} is no kind of values; allowed are {', '.join(kinds)}"
@@ -138,15 +152,6 @@ def _read(name: str) -> Stated:
     settings = values(content["settings"])
     reference_data.refuse_invalid(settings, own | {"$defs": kinds}, f"{path}: settings")
     return content
-
-
-def _each_setting(settings: Mapping[str, Any], group: str = "") -> Iterator[tuple[str, Any]]:
-    """Settings by their names, those of a group behind its name and a dot."""
-    for key, node in settings.items():
-        if isinstance(node, dict) and not {"value", "allowed"} & set(node):
-            yield from _each_setting(node, f"{group}{key}.")
-        else:
-            yield f"{group}{key}", node
 
 
 def place(name: str) -> tuple[bool, int, str]:
