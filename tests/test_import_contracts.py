@@ -51,7 +51,7 @@ REPRODUCTION = {
     "printed": "common lumped",
     "explorer": "planarimpact common lumped continuum bodies collision reference_data pages",
     "figures/solving": "planarimpact common bodies rigid lumped continuum noncollinear models"
-    " spheres fit scene pandas printed tables names figures settings",
+    " spheres scene pandas printed tables names figures settings",
     "figures/drawing": "planarimpact common tables names words goodness reference_data figures"
     " verdict_table matplotlib pandas",
     "ledger": "common bodies rigid lumped continuum noncollinear models"

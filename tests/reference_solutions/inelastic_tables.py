@@ -58,13 +58,6 @@ FIGURES_E = 0.5
 GRID_E = 0.8
 GRID_OUTPUTS = ["peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]"]
 GRID = [round(0.1 * k, 1) for k in range(81)]
-# The pairs for which laws of other codes are fitted: model, Poisson's ratio, restitution.
-FITTED = {
-    "steel": ("continuum.plastic", 0.3, 0.8),
-    "glass": ("continuum.viscous", 0.25, 0.97),
-    "polyurethane": ("continuum.viscous", 0.5, 0.6),
-}
-FITTED_INCIDENCES = [round(0.3 * k, 1) for k in range(21)]
 # The ball that is thrown under a table.
 THROW = {"radius": 0.025, "friction": 0.8, "restitution": 0.9, "velocity": (6.0, -5.0), "gap": 0.7}
 BOUNCES = 3
@@ -86,12 +79,10 @@ def tables():
     """Every table by its name."""
     angles = [(mu, angle) for mu, angles in FIG9_ANGLES.items() for angle in angles]
     rebound = ["model", "e", INCIDENCE, VELOCITY]
-    fitted = ["pair", "model", INCIDENCE, VELOCITY]
     turned = ["restitution [1]", "tangential_restitution [1]"]
     return {
         "rebound": table(rebound, _at_incidence, product(MODELS, INCIDENCES)),
         "rebound_grid": table([*rebound, *GRID_OUTPUTS], _on_grid, product(CONTINUA, GRID)),
-        "fitted_laws": table(fitted, _fitted, product(FITTED, FITTED_INCIDENCES)),
         "superball": table(PATH, _bounce, [(row,) for row in range(BOUNCES + 2)]),
         "tangential_restitution": table(
             ["model", "nu", *turned], _at_restitution, product(MODELS, NU, E)
@@ -185,11 +176,6 @@ def _on_grid(model, x):
     found = extrapolated(model, ZETA2, GRID_E, x)
     numbers = found.velocity, found.peak_friction, found.work
     return [model, GRID_E, x, *(digits(number, 6) for number in numbers)]
-
-
-def _fitted(pair, x):
-    model, nu, e = FITTED[pair]
-    return [pair, "continuum", x, digits(extrapolated(model, like(nu), e, x).velocity, 6)]
 
 
 def _bounce(row):
