@@ -8,8 +8,7 @@ CONTINUA = ("continuum.viscous", "continuum.plastic")
 PAPER = "lumped.hysteretic"
 MODELS = (PAPER, "lumped.unloading-stiffness", "lumped.viscous", *CONTINUA[::-1])
 STRONGE = "stronge1994"  # the source of what the paper states and prints
-# Models without loss, and for comparison alone, see the figure `yielding`.
-ELASTIC, ELASTIC_IN_SHEAR = "continuum", "continuum.plastic-elastic-shear"
+ELASTIC = "continuum"  # without loss
 # The printed equations, as far as they differ from the lumped model; and the variant that has the
 # places where they have no solution, with the answers of that model.
 PRINTED, NO_SOLUTION = "printed", "no solution"

@@ -31,10 +31,8 @@ NOT_DRAWN = {
     "rubber_sphere": "impacts|stated|rms",
     "stability": "contacts",
     "trade": "steps|e = 0.8",
-    "yielding": "continuum, nu",
 }
 NO_LINES = {"fig7": "slip throughout", "inelastic": "pairs", "rubber_sphere": "alone"}
-NO_LINES |= {"yielding": "runs"}
 
 
 @pytest.fixture(scope="module")
