@@ -15,6 +15,15 @@ PRINTED, NO_SOLUTION = "printed", "no solution"
 SCENE = "scene_"  # before the name of a scene, among what is judged
 
 
+def home(figure: str) -> str:
+    """Name of the package that has the folder of a figure.
+
+    >>> home("fig5"), home("rod")
+    ('figures', 'studies')
+    """
+    return "figures" if is_of_paper(figure) else "studies"
+
+
 def is_of_paper(figure: str) -> bool:
     """Whether a figure is one of Figs 2 to 9 of the paper."""
     return re.fullmatch("fig[2-9]", figure) is not None

@@ -7,9 +7,9 @@ import pytest
 from planarimpact import bodies, lumped, models
 from planarimpact.bodies import Material
 from stronge1994 import reference_data, tables
-from stronge1994.figures.inelastic import curves as inelastic
-from stronge1994.figures.rubber_sphere import curves as rubber
 from stronge1994.names import PAPER
+from stronge1994.studies.inelastic import curves as inelastic
+from stronge1994.studies.rubber_sphere import curves as rubber
 from tests.reference_solutions import cross_tables, table_files
 from tests.workflow.project import ROOT
 

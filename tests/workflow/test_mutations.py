@@ -23,6 +23,7 @@ from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.judging import compare
 from stronge1994.judging import rows as judging_rows
 from stronge1994.ledger import checking
+from stronge1994.names import home
 from stronge1994.settings import config as configuration
 from stronge1994.verdict_table import Verdict
 from tests.workflow.project import ROOT, awaited, config, ledger
@@ -231,7 +232,7 @@ def solved(table_of, inventory, monkeypatch):
         settings = settings_of(figure, inventory)
         settings.pop("uncertainty", None)
         settings |= {"as_printed": False} if "as_printed" in settings else {}
-        module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
+        module = importlib.import_module(f"stronge1994.{home(figure)}.{figure}.curves")
         found = module.curves(**wrong_settings(settings, fault.get("settings", {})))
         return pd.concat(with_wrong_curves(table_of(figure), found), ignore_index=True)
 

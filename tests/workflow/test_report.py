@@ -13,13 +13,13 @@ import yaml
 from scipy.special import chdtrc
 
 from stronge1994 import figure_table, reference_data, tables, verdict_table
-from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number
 from stronge1994.ledger import finding, outcome
 from stronge1994.names import MODELS
 from stronge1994.pages import note, which_model
 from stronge1994.pages import report as write_report
+from stronge1994.studies.inelastic import trials as inelastic
 from stronge1994.verdict_table import Group, Verdict, Why
 from stronge1994.words import of_identifier
 from stronge1994.words import source as name_of_source
@@ -56,7 +56,7 @@ def numbers(rows_of):
 
 
 def test_each_is_one_file_that_needs_nothing_else(pages):
-    for name, pictures in (("report", 17), ("sources", 0), ("note", 4)):
+    for name, pictures in (("report", 14), ("sources", 0), ("note", 4)):
         text = pages(name)
         page = Page(text)
         assert len(page.resources) >= pictures

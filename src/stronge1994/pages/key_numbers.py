@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from stronge1994 import tables
-from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.ledger import finding, outcome
 from stronge1994.names import MODELS, PAPER
 from stronge1994.pages import ledger_page
 from stronge1994.reference_data import Series
+from stronge1994.studies.inelastic import trials as inelastic
 from stronge1994.tables import Row, Table
 from stronge1994.verdict_table import Group, Verdict, Why
 
