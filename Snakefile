@@ -51,7 +51,7 @@ rule notebooks:
 # What can be asked for alone: Figs 2 to 9, each figure, each scene.
 for target, names in [("paper", PAPER), *((name, [name]) for name in JUDGED)]:
     if workflow.is_rule(target):
-        raise WorkflowError(f"src/stronge1994/figures/{target}: a rule has this name, give it another")
+        raise WorkflowError(f"{figures.folder_of(target)}: a rule has this name, give it another")
 
     rule:
         """Drawn, and judged as `all` is, by its own rows."""

@@ -84,6 +84,11 @@ def digest(*paths):
     return of_job
 
 
+def code_of(part):
+    """The `curves` or the `drawing` of a figure, for `digest`."""
+    return lambda wildcards: [f"{figures.folder_of(wildcards.figure)}/{part}.py"]
+
+
 def of_figure(part):
     """A part of `settings.of_figure`: settings of curves and drawing, `tables` to solve, `series` to draw."""
     return lambda wildcards: FIGURES[wildcards.figure][part]

@@ -16,9 +16,7 @@ rule draw:
         "../envs/planarimpact.yaml"
     params:
         settings=of_figure("drawing"),
-        content=digest(
-            "workflow/scripts/draw.py", "src/stronge1994/figures/{figure}/drawing.py", of_figure("series")
-        ),
+        content=digest("workflow/scripts/draw.py", code_of("drawing"), of_figure("series")),
     script:
         "../scripts/draw.py"
 

@@ -28,9 +28,7 @@ rule curves:
         timed=lambda wildcards: int(wildcards.figure in TIMED),
     params:
         settings=of_figure("curves"),
-        content=digest(
-            "workflow/scripts/solve.py", "src/stronge1994/figures/{figure}/curves.py", of_figure("tables")
-        ),
+        content=digest("workflow/scripts/solve.py", code_of("curves"), of_figure("tables")),
     script:
         "../scripts/solve.py"
 
