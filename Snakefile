@@ -44,7 +44,7 @@ rule notebooks:
 
 for target, names in TARGETS.items():
     if workflow.is_rule(target):
-        raise WorkflowError(f"src/stronge1994/figures/{target}: a rule has this name, give it another")
+        raise WorkflowError(f"{figures.folder_of(target)}: a rule has this name, give it another")
 
     rule:
         """Drawn, and judged as `all` is, by its own rows."""

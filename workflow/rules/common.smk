@@ -11,7 +11,9 @@ from snakemake.logging import logger
 from snakemake_interface_logger_plugins.common import LogEvent
 
 if Path.cwd().resolve() != Path(workflow.basedir).resolve():
-    raise WorkflowError(f"this command belongs into the folder of the project: cd {shlex.quote(workflow.basedir)}")
+    raise WorkflowError(
+        f"this command belongs into the folder of the project: cd {shlex.quote(workflow.basedir)}"
+    )
 if set("{}") & set(workflow.basedir):
     raise WorkflowError(f"{workflow.basedir}: Snakemake takes braces for a wildcard: rename the folder")
 
@@ -63,30 +65,27 @@ wildcard_constraints:
 # Code is an input like any other. Its content counts, not its date, see max-checksum-file-size in the profile.
 # Groups are coarse, as everything is made in two minutes; tests/workflow/test_code_inputs.py finds what they lack.
 def code(*patterns):
-    """Files of src by patterns, without bytecode, documents and the hidden files of editors."""
-    paths = [path for pattern in patterns for path in Path("src").glob(pattern) if path.is_file()]
+    """Files by patterns, without bytecode, documents and the hidden files of editors."""
+    paths = [path for pattern in patterns for path in Path().glob(pattern) if path.is_file()]
     return sorted(str(path) for path in paths if path.suffix not in (".pyc", ".md") and path.name[0] != ".")
 
 
-def folder_of(figure):
-    """The folder of a figure, below src."""
-    return f"stronge1994/figures/{figure}"
-
-
-COMMON = code("planarimpact/*.py", "planarimpact/common/*")
-COMMON += code("stronge1994/*.py", "stronge1994/figures/*.py", "stronge1994/reference_data/*")
-SOLVER = [*code("planarimpact/**/*"), "environment.txt"]  # another version of a package solves again
-SOLVING = [*SOLVER, *COMMON, *code("stronge1994/printed/*", "stronge1994/figures/shared/curves/*")]
-DRAWING = [*COMMON, *code("stronge1994/figures/shared/drawing/*")]
-JUDGING = [*COMMON, *code("stronge1994/judging/*", "stronge1994/ledger/*")]
-WRITING = [*DRAWING, *JUDGING, *code("stronge1994/settings/*", "stronge1994/pages/*", "stronge1994/explorer/*")]
-WRITING += code(f"{folder_of('inelastic')}/trials.py")
+COMMON = code("src/planarimpact/*.py", "src/planarimpact/common/*", "src/stronge1994/*.py")
+COMMON += code("src/stronge1994/figures/*.py", "src/stronge1994/studies/*.py", "src/stronge1994/reference_data/*")
+SOLVER = [*code("src/planarimpact/**/*"), "environment.txt"]  # another version of a package solves again
+SOLVING = [*SOLVER, *COMMON, *code("src/stronge1994/printed/*", "src/stronge1994/figures/shared/curves/*")]
+DRAWING = [*COMMON, *code("src/stronge1994/figures/shared/drawing/*")]
+JUDGING = [*COMMON, *code("src/stronge1994/judging/*", "src/stronge1994/ledger/*")]
+WRITING = [*DRAWING, *JUDGING, *code("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
+WRITING += code("src/stronge1994/explorer/*", f"{figures.folder_of('inelastic')}/trials.py")
 
 
 def of_folder(without):
     """Modules in the folder of a figure, without one of them."""
     return lambda wildcards: [
-        path for path in code(f"{folder_of(wildcards.figure)}/*.py") if not path.endswith(f"/{without}")
+        path
+        for path in code(f"{figures.folder_of(wildcards.figure)}/*.py")
+        if not path.endswith(f"/{without}")
     ]
 
 

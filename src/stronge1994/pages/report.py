@@ -19,7 +19,7 @@ from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import DOUBT, LARGEST_ERROR
 from stronge1994.ledger import outcome
-from stronge1994.names import is_of_paper
+from stronge1994.names import home, is_of_paper
 from stronge1994.pages import (
     key_numbers,
     ledger_page,
@@ -60,6 +60,7 @@ def page(values: TemplateValues) -> str:
         "noticed": verdict_table.noticed,
     }
     environment.tests["in_paper"] = is_of_paper
+    environment.filters["home"] = home
     table = values["table"]
     return environment.get_template("report.html").render(
         values,

@@ -1,4 +1,4 @@
-"""The figure.yaml of each folder of `figures`: settings, caption, comparisons."""
+"""The figure.yaml of each folder of `figures` and `studies`: settings, caption, comparisons."""
 
 import copy
 import functools
@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
+from stronge1994.names import home
 
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
-FOLDER = Path(__file__).parents[1] / "figures"
+PACKAGE = Path(__file__).parents[1]  # of the folders `figures` and `studies`
 PROJECT = Path(__file__).parents[3]
 
 
@@ -20,10 +21,17 @@ PROJECT = Path(__file__).parents[3]
 def stated() -> dict[str, Stated]:
     """Every figure.yaml, checked; the figures of the paper first, by number."""
     # `shared` is code for several figures. A folder that git has emptied may still hold bytecode.
-    names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
+    folders = [*PACKAGE.glob("figures/*"), *PACKAGE.glob("studies/*")]
+    folders = [path for path in folders if any(path.glob("*.*"))]
     contents = {}
-    for name in sorted(names - {"shared", "__pycache__"}, key=place):
-        path = _file(name)
+    for folder in sorted(folders, key=lambda folder: place(folder.name)):
+        name = folder.name
+        if name in ("shared", "__pycache__"):
+            continue
+        if folder.parent.name != home(name):
+            problem = f"{folder}: figures/ has Figs 2 to 9, and studies/ has all others"
+            raise reference_data.SourceError(problem)
+        path = folder_of(name) / "figure.yaml"
         if not re.fullmatch("(?!scene_)[a-z][a-z0-9_]*", name):
             problem = "allowed are a to z, 0 to 9 and _, and not scene_ at the beginning"
             raise reference_data.SourceError(f"{path.parent}: {problem}")
@@ -37,7 +45,7 @@ def stated() -> dict[str, Stated]:
                 raise reference_data.SourceError(f"{path}: settings: allowed: {problem}")
         reference_data.refuse_invalid(values(settings), own | {"$defs": kinds}, f"{path}: settings")
         for file in ("curves.py", "drawing.py"):
-            if not (FOLDER / name / file).is_file():
+            if not (folder / file).is_file():
                 raise reference_data.SourceError(f"{path.parent / file}: missing")
     return contents
 
@@ -92,7 +100,7 @@ def comparisons() -> dict[str, dict[str, Any]]:
     own = definitions()["comparison"] | {"$defs": definitions()}
     for figure, content in stated().items():
         for pattern, common in content["comparisons"].items():
-            where = f"{_file(figure)}: comparisons.{pattern}"
+            where = f"{folder_of(figure)}/figure.yaml: comparisons.{pattern}"
             for name, entry in expanded(pattern, common):
                 if placeholder := re.search(r"(?<!mathrm)\{\w*\}", f"{name} {entry}"):
                     raise reference_data.SourceError(f"{where}: `each` has no {placeholder[0]}")
@@ -150,5 +158,10 @@ def schema(name: str) -> dict[str, Any]:
     return reference_data.load_yaml(PROJECT / f"workflow/schemas/{name}.schema.yaml")
 
 
-def _file(figure: str) -> Path:
-    return Path(os.path.relpath(FOLDER / figure / "figure.yaml"))
+def folder_of(figure: str) -> Path:
+    """Folder of a figure.
+
+    >>> folder_of("fig5").as_posix(), folder_of("rod").as_posix()
+    ('src/stronge1994/figures/fig5', 'src/stronge1994/studies/rod')
+    """
+    return Path(os.path.relpath(PACKAGE / home(figure) / figure))
