@@ -61,6 +61,7 @@ rule ledger:
 rule accept:
     """Accept what a run has found: whoever asks for this looks at the changes with git diff."""
     input:
+        code=["workflow/scripts/accept.py", *JUDGING],
         verdicts=rules.verdicts.output,
         ledger=rules.ledger.output.table,
     log:
