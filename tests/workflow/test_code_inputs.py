@@ -1,4 +1,4 @@
-"""What the script of a rule imports from src/ is an input of that rule: else an edit runs nothing."""
+"""What a job imports from src/ is an input of its rule: else an edit of it runs nothing."""
 
 import json
 import re
@@ -10,8 +10,8 @@ import pytest
 
 from tests.workflow.project import ROOT, Project
 
-# Imports what each script imports, and names the files in src/ that were loaded. A fork for each, as
-# the imports of numpy, pandas and matplotlib take most of the time.
+# Imports what each script imports, and names the files in src/ that were loaded. A fork for each,
+# as the imports of numpy, pandas and matplotlib take most of the time.
 RECORD = """
 import ast, importlib, json, os, sys
 import matplotlib.figure, pandas, scipy.integrate

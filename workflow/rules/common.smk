@@ -71,7 +71,9 @@ def code(*patterns):
 
 
 COMMON = code("src/planarimpact/*.py", "src/planarimpact/common/*", "src/stronge1994/*.py")
-COMMON += code("src/stronge1994/figures/*.py", "src/stronge1994/studies/*.py", "src/stronge1994/reference_data/*")
+COMMON += code(
+    "src/stronge1994/figures/*.py", "src/stronge1994/studies/*.py", "src/stronge1994/reference_data/*"
+)
 SOLVER = [*code("src/planarimpact/**/*"), "environment.txt"]  # another version of a package solves again
 SOLVING = [*SOLVER, *COMMON, *code("src/stronge1994/printed/*", "src/stronge1994/figures/shared/curves/*")]
 DRAWING = [*COMMON, *code("src/stronge1994/figures/shared/drawing/*")]
@@ -83,9 +85,7 @@ WRITING += code("src/stronge1994/explorer/*", f"{figures.folder_of('inelastic')}
 def of_folder(without):
     """Modules in the folder of a figure, without one of them."""
     return lambda wildcards: [
-        path
-        for path in code(f"{figures.folder_of(wildcards.figure)}/*.py")
-        if not path.endswith(f"/{without}")
+        path for path in code(f"{figures.folder_of(wildcards.figure)}/*.py") if Path(path).name != without
     ]
 
 
