@@ -2,7 +2,6 @@
 
 import base64
 import html
-import json
 import re
 from collections import Counter
 
@@ -12,7 +11,7 @@ import pytest
 import yaml
 from scipy.special import chdtrc
 
-from stronge1994 import figure_table, reference_data, tables, verdict_table
+from stronge1994 import figure_table, reference_data, tables, verdict_table, versions
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number
 from stronge1994.ledger import finding, outcome
@@ -148,7 +147,7 @@ def test_each_source_and_version_stands_with_its_own_name(first_run, pages, inve
             assert row.startswith(flat(mathematical(of_identifier(key)))), row
             assert row.endswith(origin) and flat(mathematical(f"{entry['value']:g}")) in row
     said = text[text.index("<dt>Versions</dt>") :].split("</dd>")[0]
-    made_with = json.loads((first_run[0] / "results/versions.json").read_text(encoding="utf-8"))
+    made_with = versions.installed()
     assert flat(said) == "Versions" + ",".join(f"{k}{v}" for k, v in made_with.items())
     assert made_with["numpy"] == np.__version__ and made_with["pandas"] == pd.__version__
 
