@@ -22,7 +22,7 @@ TIMEOUT = 3600  # s, against a run that hangs, not against a busy machine
 @functools.cache
 def sources():
     """All sources of data/. Do not change them."""
-    return reference_data.load_all(ROOT / "data", schema("source"))
+    return reference_data.load_all(ROOT / "data")
 
 
 @functools.cache
@@ -48,7 +48,7 @@ def awaited():
     """Names of the comparisons with a series of which there are no points yet."""
 
     def waits(full):
-        return configuration.reference(sources(), full).get("kind") == "awaited"
+        return reference_data.reference(sources(), full).get("kind") == "awaited"
 
     stated = config()["comparisons"].items()
     return [name for name, entry in stated if "reference" in entry and waits(entry["reference"])]
