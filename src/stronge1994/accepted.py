@@ -6,11 +6,11 @@ nor shrink unseen. `snakemake accept` writes the table; its changes are read in 
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from stronge1994 import tables
 from stronge1994.tables import Row, with_unit
-from stronge1994.verdict_table import Verdict, Why, problem
+from stronge1994.verdict_table import Verdict, Why, outcome, problem
 
 PATH = "data/accepted/verdicts.csv"
 COLUMNS = ["name", "verdict", "why", "size", "unit", "points"]
@@ -72,11 +72,12 @@ def problem_of(row: Row) -> str:
     return f"{row['comparison']}: {problem(row)}"
 
 
-def _changed(was: Row, now: Mapping[str, str]) -> Iterator[str]:
+def _changed(was: Row, now: Row) -> Iterator[str]:
     """What of a row is not as accepted, in words."""
-    for column in ("verdict", "why", "points"):
-        if was[column] != now[column]:
-            yield f"{column} {was[column] or 'none'} -> {now[column] or 'none'}"
+    if outcome(was) != outcome(now):
+        yield f"{outcome(was)} -> {outcome(now)}"
+    if was["points"] != now["points"]:
+        yield f"points {was['points'] or 'none'} -> {now['points'] or 'none'}"
     sizes = [row["size"] and with_unit(float(row["size"]), row["unit"]) for row in (was, now)]
     if not _alike(was["size"], now["size"]) or was["unit"] != now["unit"]:
         yield f"size {sizes[0] or 'none'} -> {sizes[1] or 'none'}"

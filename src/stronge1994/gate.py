@@ -1,16 +1,14 @@
-"""Decide whether a run is good by its tables, and tell it at the end."""
+"""Decide whether a run passes by its tables, and tell what it found."""
 
-import shlex
 import textwrap
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 
-from stronge1994 import accepted, figure_table, tables, verdict_table
+from stronge1994 import accepted, figure_table, verdict_table
 from stronge1994.ledger import outcome
 from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
 
-LEDGER = "results/ledger.csv"
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 PASSED = """\
 PASSED: every result is as accepted, known differences included; {checks} checks.
@@ -26,12 +24,9 @@ Change:  workflow/config.yaml, and run again. References for the old value are
 NO_PRINT = "not compared (with your copy: figures/your_copy.html)"
 UNMADE = (
     "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "
-    "({}); to draw without judging: {}"
+    "({}). To draw without judging, with your --config: snakemake --cores 2 figures"
 )
-STOPPED = (
-    "Stopped before the end: what is not made anew is missing or of an earlier run. Type the same "
-    "command again, what was finished is kept. Usual causes: workflow/README.md, Troubleshooting."
-)
+ON_PURPOSE = "On purpose? To draw without judging: snakemake --cores 2 figures"
 
 
 def faults(
@@ -79,66 +74,39 @@ def unmade(verdicts: Sequence[Row]) -> list[Row]:
 
 
 def summary(
-    verdicts: Sequence[str],
-    comparisons: Collection[str],
-    entries: Collection[str],
-    shows: Mapping[str, str],
-    failed: Mapping[str, str],
-    passed: Collection[str],
-    stopped: bool,
-    config: Sequence[str],
-    made: Sequence[str] = (),
+    verdicts: Sequence[Row], ledger: Sequence[Row], wrong: Sequence[str], shows: Mapping[str, str]
 ) -> str:
-    """What a run says at its end, by the tables of what it judges that are up to date then.
+    """What a run says at its end: its rows in short, and whether it has passed.
 
-    `verdicts` are these tables, `comparisons` and `entries` as for `faults`; no entries say that
-    the ledger is not judged. `shows` says what each figure of the paper shows. `failed` names jobs,
-    with their logs, and `passed` the targets that judge and have passed; `stopped` says that a job
-    failed or that the run was interrupted. `config` are the arguments of --config, to be repeated.
-    `made` are the files that were asked for by name, or by the name of a rule that makes them.
+    `wrong` are its `faults`; `shows` says what each figure of the paper shows. A run without a
+    ledger is one of a part, of Fig. 6 for example.
     """
-    rows = verdict_table.gather(verdicts)
-    ledger = tables.read_rows(LEDGER, outcome.COLUMNS) if entries else []
-    known = tables.read_rows(accepted.PATH, accepted.COLUMNS)
-    wrong = faults(rows, ledger, comparisons, entries, known)
-    others = [] if failed else unmade(rows)  # else the figures are not all drawn
-    again = ["snakemake", "--cores", "2", "figures", *(["--config", *config] if config else [])]
-    parts = [""]
-    if len(verdicts) > 1:
-        judged = {row["figure"] for row in rows}
-        shown = {name: words for name, words in shows.items() if name in judged}
-        parts += [figure_table.text(figure_table.of_run(rows, shown))]
-        parts += filter(None, [figure_table.beyond(rows), figure_table.of_solver(rows)])
-        parts += [""]
-    elif verdicts:
-        parts += [verdict_table.text(rows), f"All columns: {verdicts[0]}"]
-    parts += [outcome.summary(ledger)] if ledger else []
-    parts += [f"failed: {job} (log: {log})" for job, log in failed.items()]
+    figures, others = {row["figure"] for row in verdicts}, unmade(verdicts)
+    if ledger or len(figures) > 1:
+        shown = {name: words for name, words in shows.items() if name in figures}
+        parts = [figure_table.text(figure_table.of_run(verdicts, shown))]
+        parts += filter(None, [figure_table.beyond(verdicts), figure_table.of_solver(verdicts)])
+        parts += ["", outcome.summary(ledger)] if ledger else []
+    else:
+        parts = [verdict_table.text(verdicts), "All columns: results/verdicts/"]
     if others:
         settings = "; ".join(list(dict.fromkeys(row["note"] for row in others))[:2])
-        parts += [_filled(UNMADE.format(len(others), settings, shlex.join(again)))]
+        parts += [_filled(UNMADE.format(len(others), settings))]
     if wrong:
-        parts += [f"On purpose? To draw without being judged:  {shlex.join(again)}"]
-        parts += [f"FAILED. Reasons: {len(wrong)}"]
+        parts += [ON_PURPOSE, f"FAILED. Reasons: {len(wrong)}"]
         parts += [_filled(fault) for fault in wrong[:MOST_FAULTS]]
         more = len(wrong) - MOST_FAULTS
-        parts += [f"  and {more} more: results/verdicts/, {LEDGER}"] if more > 0 else []
+        parts += [f"  and {more} more: results/verdicts/, results/ledger.csv"] if more > 0 else []
         parts += [accepted.ACCEPT]
-    elif stopped and not others:
-        parts += [_filled(STOPPED)]
-    elif "all" in passed:
-        found = Counter(row["verdict"] for row in rows)
-        checks = len(rows) - found[Verdict.NOT_COMPARED] + len(ledger)
-        printed = figure_table.of_printed(rows) or NO_PRINT
+    elif ledger and not others:
+        found = Counter(row["verdict"] for row in verdicts)
+        checks = len(verdicts) - found[Verdict.NOT_COMPARED] + len(ledger)
+        printed = figure_table.of_printed(verdicts) or NO_PRINT
         parts += [PASSED.format(checks=checks, printed=printed)]
-    elif passed:
-        parts += ["No comparison fails." if rows else "There is nothing to compare."]
-        parts += ["The verdict of all: snakemake --cores 2"]
     elif not others:
-        parts += [
-            f"Made: {', '.join(made)}" if made else "Not judged. Pictures and pages: figures/"
-        ]
-    return "\n".join(parts) + "\n"
+        parts += ["Every result is as accepted." if verdicts else "There is nothing to compare."]
+        parts += ["The verdict of all: snakemake --cores 2"]
+    return "\n".join(["", *parts])
 
 
 def _filled(text: str) -> str:

@@ -26,9 +26,9 @@ AWAITED = NOT_JUDGED | {"why": "points awaited"}
         ({"size": "3e-14"}, {"size": "-9e-13"}, ""),
         ({}, {"size": "0.1", "points": "4"}, "points 5 -> 4; size 0.15 N -> 0.1 N"),
         ({}, {"unit": "1"}, "size 0.15 N -> 0.15"),
-        ({}, {"verdict": "agrees"}, "verdict differs -> agrees"),
-        ({}, {"why": ""}, "why cause known -> none"),
-        ({}, AWAITED, "verdict differs -> not compared; why cause known -> points awaited; "
+        ({}, {"verdict": "agrees"}, "differs, cause known -> agrees, cause known"),
+        ({}, {"why": ""}, "differs, cause known -> differs"),
+        ({}, AWAITED, "differs, cause known -> not compared, points awaited; "
          "points 5 -> none; size 0.15 N -> none"),
         # The gate tells of these by itself.
         ({}, {"verdict": "FAILS"}, ""),

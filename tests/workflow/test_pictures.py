@@ -20,6 +20,7 @@ from stronge1994 import settings as figure_settings
 from stronge1994 import tables
 from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import house_style, slide
+from stronge1994.names import home
 from stronge1994.settings import figures
 from tests.workflow.project import config, sources
 
@@ -31,10 +32,8 @@ NOT_DRAWN = {
     "rubber_sphere": "impacts|stated|rms",
     "stability": "contacts",
     "trade": "steps|e = 0.8",
-    "yielding": "continuum, nu",
 }
 NO_LINES = {"fig7": "slip throughout", "inelastic": "pairs", "rubber_sphere": "alone"}
-NO_LINES |= {"yielding": "runs"}
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +44,7 @@ def given(first_run):
         project, _ = first_run
         settings = figure_settings.of_figure(config(), sources(), figure)["drawing"]
         points = drawings.references(settings["overlays"])
-        module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
+        module = importlib.import_module(f"stronge1994.{home(figure)}.{figure}.drawing")
         curves = tables.read(project / f"results/curves/{figure}.csv")
         return curves, lambda curves: module.draw(curves, settings["settings"], points), points
 

@@ -128,9 +128,9 @@ def test_the_paper_is_eight_figures_drawn_and_judged(tree):
 
 
 def test_settings_of_the_command_line_are_drawn_without_judgement(tree):
-    change = "figures={fig6: {as_printed: false}, superball: {throw: {bounces: 5}}}"
+    change = "figures={fig6: {as_printed: false}, rod: {restitution: 0.8}}"
     assert tree.jobs("figures", "--config", change)[1] == {
-        f"{job}_{figure}" for job in ("curves", "draw") for figure in ("fig6", "superball")
+        f"{job}_{figure}" for job in ("curves", "draw") for figure in ("fig6", "rod")
     }  # fmt: skip
 
 

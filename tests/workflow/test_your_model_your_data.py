@@ -12,7 +12,7 @@ from stronge1994.settings.figures import expanded
 from tests.workflow.project import ROOT
 
 TEXT = (ROOT / "workflow/your_model_your_data.md").read_text(encoding="utf-8")
-FOLDER = "src/stronge1994/figures/marble"
+FOLDER = "src/stronge1994/studies/marble"
 NOT_RUN = "<!-- not run"
 
 

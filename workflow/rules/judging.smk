@@ -1,7 +1,7 @@
 rule judge:
     """Compare a figure's curves or a scene with reference data. A row that fails is no error here."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/judge.py", *JUDGING],
         table=of_judged("table"),
         series=of_judged("series"),
     output:
@@ -12,8 +12,101 @@ rule judge:
     priority: priority
     conda:
         "../envs/planarimpact.yaml"
+    resources:
+        mem_mb=1000,
+        runtime=10,
     params:
         settings=of_judged("settings"),
-        content=digest("workflow/scripts/judge.py", of_judged("series")),
     script:
         "../scripts/judge.py"
+
+
+rule verdicts:
+    """All rows of the comparisons as one table. Never fails."""
+    input:
+        code=["workflow/scripts/gather.py", *JUDGING],
+        tables=expand(rules.judge.output.verdicts, judged=JUDGED),
+    output:
+        report("results/verdicts.csv", category="Tables", caption="../report/verdicts.rst"),
+    log:
+        "results/logs/verdicts.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/gather.py"
+
+
+rule ledger:
+    """Check every entry of the paper's ledger against the paper's model, solved to rounding."""
+    input:
+        code=["workflow/scripts/check_ledger.py", *SOLVING, *JUDGING],
+        entries=LEDGER,
+        facts="data/stronge1994/source.yaml",  # to which entries refer
+        schema="workflow/schemas/ledger.schema.yaml",
+    output:
+        table=report("results/ledger.csv", category="Tables", caption="../report/ledger.rst"),
+        measures="results/in_nature.csv",
+    log:
+        "results/logs/ledger.log",
+    priority: 1  # as it is long
+    conda:
+        "../envs/planarimpact.yaml"
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    script:
+        "../scripts/check_ledger.py"
+
+
+rule accept:
+    """Accept what a run has found: whoever asks for this looks at the changes with git diff."""
+    input:
+        code=["workflow/scripts/accept.py", *JUDGING],
+        verdicts=rules.verdicts.output,
+        ledger=rules.ledger.output.table,
+    log:
+        "results/logs/accept.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/accept.py"
+
+
+rule gate:
+    """Pass, or fail and say which rows are not as accepted. It waits for all that a run makes."""
+    input:
+        code=["workflow/scripts/gate.py", *JUDGING],
+        verdicts=rules.verdicts.output,
+        ledger=rules.ledger.output.table,
+        accepted=ACCEPTED,
+        made=made(JUDGED),
+        pages=PAGES,
+    output:
+        "results/gate.txt",
+    log:
+        "results/logs/gate.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        rows=rows_of(JUDGED),
+        entries=ENTRIES,
+        shows=lambda _: {name: figures.stated()[name]["shows"] for name in PAPER},
+    script:
+        "../scripts/gate.py"
+
+
+use rule gate as gate_of_target with:
+    # The same for a part of the run, by its own rows.
+    input:
+        code=["workflow/scripts/gate.py", *JUDGING],
+        verdicts=lambda wildcards: expand(rules.judge.output.verdicts, judged=TARGETS[wildcards.target]),
+        accepted=ACCEPTED,
+        made=lambda wildcards: made(TARGETS[wildcards.target]),
+    output:
+        "results/gates/{target}.txt",
+    log:
+        "results/logs/gate_{target}.log",
+    params:
+        rows=lambda wildcards: rows_of(TARGETS[wildcards.target]),
+        entries=[],
+        shows=lambda _: {name: figures.stated()[name]["shows"] for name in PAPER},

@@ -7,21 +7,18 @@ OVERLAYS = {
     for name, series in entry.get("series", {}).items()
     if series.get("overlay")
 }
-# Series of which the note states numbers. It needs them, fig5, inelastic, rubber_sphere and yielding.
-STATED = {
-    "pairs": SOURCES["cornell1999"]["series"]["pairs"],
-    "runs": SOURCES["finite_elements"]["series"]["spheres"],
-}
+# Series of which the note states numbers. It needs them, fig5, inelastic and rubber_sphere.
+STATED = {"pairs": SOURCES["cornell1999"]["series"]["pairs"]}
 
 
 rule report:
     """The run as pages: the report, its sources and settings, the note, the ledger of the paper."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/write_report.py", *WRITING],
         ledger="results/ledger.csv",
-        accepted="data/accepted/verdicts.csv",
+        accepted=ACCEPTED,
         in_nature="results/in_nature.csv",
-        verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
+        verdicts="results/verdicts.csv",
         residuals=expand("results/residuals/{judged}.csv", judged=FIGURES),
         curves=expand("results/curves/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
@@ -34,8 +31,7 @@ rule report:
         note="figures/note.html",
         ledger="figures/ledger.html",
         tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
-        verdicts="results/verdicts.csv",
-        which_model="results/which_model.csv",
+        which_model=report("results/which_model.csv", category="Tables", caption="../report/which_model.rst"),
         numbers="results/key_numbers.csv",
     log:
         "results/logs/report.log",
@@ -56,7 +52,6 @@ rule report:
             "rows": rows_of(JUDGED),
             "entries": ENTRIES,
         },
-        content=digest("workflow/scripts/write_report.py"),
     script:
         "../scripts/write_report.py"
 
@@ -64,7 +59,7 @@ rule report:
 rule lecture:
     """Run one lecture, compare the numbers that its texts state, and write its pages."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
         numbers="workflow/notebooks/{notebook}.yaml",
         tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/curves/trade.csv"),
@@ -82,9 +77,6 @@ rule lecture:
     priority: 1  # as it is long
     conda:
         "../envs/planarimpact.yaml"
-    params:
-        # Cells import the solver alone, so that a notebook runs where only that is installed.
-        content=digest("workflow/scripts/run_lecture.py", "src/planarimpact"),
     script:
         "../scripts/run_lecture.py"
 
@@ -92,7 +84,7 @@ rule lecture:
 rule explorer:
     """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/write_explorer.py", *SOLVER, *WRITING],
         sources=sorted(map(str, Path("workflow/explorer").glob("*.*"))),
         start="workflow/report/index.html",
         parts=EVERY_PAGE,
@@ -105,7 +97,6 @@ rule explorer:
         "../envs/planarimpact.yaml"
     params:
         settings=lambda _: settings.of_explorer(config),
-        content=digest("workflow/scripts/write_explorer.py"),
     script:
         "../scripts/write_explorer.py"
 
@@ -113,7 +104,7 @@ rule explorer:
 rule your_copy:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/write_your_copy.py", *WRITING],
         sources=sorted(map(str, Path("workflow/your_copy").glob("**/*.*"))) + ["workflow/explorer/files.js"],
         curves=expand("results/curves/{figure}.csv", figure=PAPER),
         parts=EVERY_PAGE,
@@ -136,7 +127,6 @@ rule your_copy:
             if "allowance" in entry
         },
         significance=lambda _: config["significance"],
-        content=digest("workflow/scripts/write_your_copy.py"),
     script:
         "../scripts/write_your_copy.py"
 
@@ -152,6 +142,7 @@ PAGES = [
 rule site:
     """All pages for students and readers, in one folder and as a zip file: five minutes of processor time."""
     input:
+        code=["workflow/scripts/write_site.py", *SOLVER, *WRITING],
         made=[
             *(path for path in PAGES if "answers_" not in path),  # which are for the teacher
             *made(JUDGED),
@@ -168,7 +159,5 @@ rule site:
         "results/logs/site.log",
     conda:
         "../envs/planarimpact.yaml"
-    params:
-        content=digest("workflow/scripts/write_site.py", "src/planarimpact"),
     script:
         "../scripts/write_site.py"

@@ -19,7 +19,7 @@ from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import DOUBT, LARGEST_ERROR
 from stronge1994.ledger import outcome
-from stronge1994.names import is_of_paper
+from stronge1994.names import home, is_of_paper
 from stronge1994.pages import (
     key_numbers,
     ledger_page,
@@ -60,6 +60,7 @@ def page(values: TemplateValues) -> str:
         "noticed": verdict_table.noticed,
     }
     environment.tests["in_paper"] = is_of_paper
+    environment.filters["home"] = home
     table = values["table"]
     return environment.get_template("report.html").render(
         values,
@@ -184,8 +185,7 @@ def write(
     pictures of prints by series. `symbols` and `impacts` are those of the ledger; `rows` and
     `entries` are as in `gate.faults`.
     """
-    verdicts = verdict_table.gather(given.verdicts)
-    tables.write_rows(made.verdicts, verdicts, verdict_table.COLUMNS)
+    verdicts = verdict_table.gather([given.verdicts])
     ledger, measures = map(tables.read_rows, (given.ledger, given.in_nature))
     curves = {Path(path).stem: path for path in given.curves}
     numbers = key_numbers.of_run(verdicts, ledger, measures, curves, stated)
@@ -193,7 +193,7 @@ def write(
     trade = tables.read(curves["trade"])
     answers = which_model.answers(trade)
     answers.to_csv(made.which_model, index=False, lineterminator="\n")
-    copied = [made.verdicts, made.which_model, *given.curves, *given.residuals]
+    copied = [given.verdicts, made.which_model, *given.curves, *given.residuals]
     copy_tables(made.tables, copied)
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
     residuals = {Path(path).stem: pd.read_csv(path) for path in given.residuals}
@@ -205,7 +205,7 @@ def write(
         )
         for name, picture in pictures.items()
     }
-    run = versions.of_run(given.versions)
+    run = versions.of_run()
     known = tables.read_rows(given.accepted, accepted.COLUMNS)
     values = {
         "verdicts": shown,

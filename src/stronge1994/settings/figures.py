@@ -1,4 +1,4 @@
-"""The figure.yaml of each folder of `figures`: settings, caption, comparisons."""
+"""The figure.yaml of each folder of `figures` and `studies`: settings, caption, comparisons."""
 
 import copy
 import functools
@@ -17,11 +17,12 @@ from typing_extensions import TypeAliasType
 
 from stronge1994 import reference_data
 from stronge1994.judging.comparisons import Comparison
+from stronge1994.names import home
 from stronge1994.reference_data import Faults, SourceError, formats
 from stronge1994.reference_data.formats import CONFIG, Declared, Number, Truth, Whole
 
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
-FOLDER = Path(__file__).parents[1] / "figures"
+PACKAGE = Path(__file__).parents[1]  # of the folders `figures` and `studies`
 PROJECT = Path(__file__).parents[3]
 KEYS = {own.name for own in fields(Comparison)}  # of a comparison
 
@@ -126,17 +127,21 @@ class Figure(Declared):
 def stated() -> dict[str, Stated]:
     """Every figure.yaml, checked; the figures of the paper first, by number."""
     # `shared` is code for several figures. A folder that git has emptied may still hold bytecode.
-    names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
+    folders = [*PACKAGE.glob("figures/*"), *PACKAGE.glob("studies/*")]
+    folders = [path for path in folders if any(path.glob("*.*"))]
     contents, faults = {}, Faults()
-    for name in sorted(names - {"shared", "__pycache__"}, key=place):
-        with faults:
-            contents[name] = _read(name)
+    for folder in sorted(folders, key=lambda folder: place(folder.name)):
+        if folder.name not in ("shared", "__pycache__"):
+            with faults:
+                contents[folder.name] = _read(folder)
     faults.refuse()
     return contents
 
 
-def _read(name: str) -> Stated:
-    path = file_of(name)
+def _read(folder: Path) -> Stated:
+    name, path = folder.name, file_of(folder.name)
+    if folder.parent.name != home(name):
+        raise SourceError(f"{folder}: figures/ has Figs 2 to 9, and studies/ has all others")
     if not re.fullmatch("(?!scene_)[a-z][a-z0-9_]*", name):
         problem = "allowed are a to z, 0 to 9 and _, and not scene_ at the beginning"
         raise SourceError(f"{path.parent}: {problem}")
@@ -253,6 +258,15 @@ def config_schema() -> dict[str, Any]:
     return reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")
 
 
+def folder_of(figure: str) -> Path:
+    """Folder of a figure.
+
+    >>> folder_of("fig5").as_posix(), folder_of("rod").as_posix()
+    ('src/stronge1994/figures/fig5', 'src/stronge1994/studies/rod')
+    """
+    return Path(os.path.relpath(PACKAGE / home(figure) / figure))
+
+
 def file_of(figure: str) -> Path:
     """The figure.yaml of a figure."""
-    return Path(os.path.relpath(FOLDER / figure / "figure.yaml"))
+    return folder_of(figure) / "figure.yaml"

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.figures.shared.drawing.house_style import Points, Scatter
+from stronge1994.names import home
 from stronge1994.reference_data import Series, of
 
 
@@ -27,7 +28,7 @@ def draw(
     `stated` has its settings, the reference series that are not awaited, facts, and its slide.
     `source` says in the pictures' metadata what made them.
     """
-    module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
+    module = importlib.import_module(f"stronge1994.{home(figure)}.{figure}.drawing")
     curves, points = tables.read(curves_path), references(stated["overlays"])
 
     def drawn() -> Figure:

@@ -17,10 +17,10 @@ from planarimpact.common import sliding
 from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.common.results import Rebound
 from stronge1994 import tables
-from stronge1994.figures.inelastic.trials import BETA_0, WHOLE, E
 from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.figures.shared.curves.sampling import vertices
 from stronge1994.names import MODELS
+from stronge1994.studies.inelastic.trials import BETA_0, WHOLE, E
 from stronge1994.tables import Table
 
 # Slopes from which the fit starts. Friction never accelerates the body, so |w| is at most x.

@@ -10,11 +10,11 @@ from scipy.special import chdtri
 
 from planarimpact.common.arrays import Array
 from stronge1994 import tables
-from stronge1994.figures.inelastic.trials import BETA_0, SIGNIFICANCE, E, goodness, trials
 from stronge1994.figures.shared.drawing import house_style, model_lines
 from stronge1994.figures.shared.drawing.house_style import Entries, Points, Scatter, Settings
 from stronge1994.figures.shared.drawing.model_lines import POINT, STYLES
 from stronge1994.names import MODELS
+from stronge1994.studies.inelastic.trials import BETA_0, SIGNIFICANCE, E, goodness, trials
 from stronge1994.tables import Table
 
 X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
