@@ -10,10 +10,9 @@ from dataclasses import field, fields
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import ConfigDict, Discriminator, Field, Tag
+from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag
 from pydantic.alias_generators import to_camel
 from pydantic.dataclasses import dataclass
-from typing_extensions import TypeAliasType
 
 from stronge1994 import reference_data
 from stronge1994.judging.comparisons import Comparison
@@ -87,17 +86,16 @@ def _is_setting(node: Any) -> bool:
     return not isinstance(node, dict) or bool({"value", "allowed"} & {*node})
 
 
-# Settings, and groups of them.
-Settings = TypeAliasType(  # type: ignore[misc]
-    "Settings",
-    dict[
+class Settings(RootModel[dict[str, Any]]):
+    """Settings, and groups of them."""
+
+    root: dict[
         str,
         Annotated[
-            Annotated[Setting, Tag("one")] | Annotated["Settings", Tag("group")],  # type: ignore[misc]
+            Annotated[Setting, Tag("one")] | Annotated["Settings", Tag("group")],
             Discriminator(lambda node: "one" if _is_setting(node) else "group"),
         ],
-    ],
-)
+    ]
 
 
 @dataclass(frozen=True, config=CONFIG)
