@@ -1,6 +1,7 @@
 """What may stand in data/ is read as it is meant; tests/refusals has what is refused."""
 
 import contextlib
+import shutil
 
 import numpy as np
 import pytest
@@ -90,6 +91,45 @@ def test_a_point_of_a_reading_may_lie_as_far_outside_the_range_as_a_map_may_be_o
     refused = contextlib.nullcontext() if admitted else pytest.raises(reference_data.SourceError)
     with refused:
         reference_data.load(folder)
+
+
+def test_all_faults_of_all_sources_are_told_at_once(tmp_path):
+    """Of source.yaml, a line for each field; of tables, a line for each file."""
+    shutil.copytree(ROOT / "data/johnson1983", tmp_path / "a")
+    stated = (tmp_path / "a/source.yaml").read_text()
+    wrong = stated.replace("rights:", "right:").replace("range: [0, 10]", "range: [10, 0]")
+    (tmp_path / "a/source.yaml").write_text(wrong)
+    shutil.copytree(ROOT / "data/kharaz2001", tmp_path / "b")
+    for name in ("spin", "tangential_restitution"):
+        (tmp_path / f"b/{name}.csv").write_text("angle\n1\n")
+    (tmp_path / "b/notes.txt").touch()
+    with pytest.raises(reference_data.SourceError) as refusal:
+        reference_data.load_all(tmp_path)
+    x = "series.rubber_sphere.x"
+    told = str(refusal.value).replace(f"{tmp_path}/", "").splitlines()
+    assert [line.partition(";")[0] for line in told] == [
+        "a/source.yaml: rights: missing",
+        f"a/source.yaml: {x}.range = [10, 0]: the first number must be the smaller",
+        "a/source.yaml: right: no such key",
+        "b/tangential_restitution.csv, line 1: column 'digitiser' is missing",
+        "b/spin.csv, line 1: column 'digitiser' is missing",
+        "b/notes.txt: no series of that name",
+    ]
+
+
+def test_files_that_desktops_and_editors_leave_are_ignored(tmp_path):
+    shutil.copytree(ROOT / "data/kharaz2001", tmp_path / "kharaz2001")
+    for name in (
+        "desktop.ini",
+        "Thumbs.db",
+        "spin.csv~",
+        "~$spin.xlsx",
+        ".DS_Store",
+        "spin.csv.bak",
+    ):
+        (tmp_path / "kharaz2001" / name).touch()
+        (tmp_path / name).touch()
+    assert list(reference_data.load_all(tmp_path)) == ["kharaz2001"]
 
 
 def test_a_point_may_lie_three_sigmas_outside_the_range(tmp_path):

@@ -26,12 +26,6 @@ def sources():
 
 
 @functools.cache
-def schema(name):
-    """A schema of the workflow."""
-    return reference_data.load_yaml(ROOT / f"workflow/schemas/{name}.schema.yaml")
-
-
-@functools.cache
 def config():
     """The config of the project, whole."""
     return configuration.load([ROOT / configuration.FILE])
@@ -40,7 +34,8 @@ def config():
 @functools.cache
 def ledger():
     """Entries of the ledger."""
-    return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema("ledger"))
+    schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
+    return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
 
 
 @functools.cache

@@ -9,9 +9,14 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994.reference_data import formats, reading
-from stronge1994.reference_data.formats import refuse_invalid
+from stronge1994.reference_data.formats import (
+    Faults,
+    SourceError,
+    load_yaml,
+    refuse_invalid,
+    text_of,
+)
 from stronge1994.reference_data.series import LARGEST_SIGMA, Axis, Fact, Series, Source, of
-from stronge1994.reference_data.texts import Faults, SourceError, load_yaml, text_of
 
 __all__ = [
     "LARGEST_SIGMA",

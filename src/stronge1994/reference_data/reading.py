@@ -12,9 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from stronge1994.reference_data.calibration import ANY, FLAT_BED, Calibration
-from stronge1994.reference_data.formats import shown
+from stronge1994.reference_data.formats import Faults, SourceError, head_and_table, shown, text_of
 from stronge1994.reference_data.series import NUMBER, Series
-from stronge1994.reference_data.texts import Faults, SourceError, head_and_table, text_of
 
 # What a head must have, and what is needed there.
 ONE = "one standard deviation, in the unit of this axis, a positive number as 0.012"

@@ -13,18 +13,19 @@ from pydantic import Discriminator, Field, Tag
 from pydantic.dataclasses import dataclass
 
 from planarimpact.common.arrays import Array
-from stronge1994.reference_data import texts
+from stronge1994.reference_data import formats
 from stronge1994.reference_data.calibration import Calibration
 from stronge1994.reference_data.formats import (
+    COMMAS,
     CONFIG,
     Declared,
     Number,
     Positive,
+    SourceError,
     Span,
     Truth,
     Whole,
 )
-from stronge1994.reference_data.texts import COMMAS, SourceError
 from stronge1994.tables import Table, with_unit
 
 # Kinds of series that hold points of nature: published ones, or measured by their owner.
@@ -257,7 +258,7 @@ class Series(Declared):
         """
         axes = {axis.name: axis for axis in self.axes.values()}
         axes |= {size.name: size for axis in self.axes.values() if (size := axis.of_sigma)}
-        lines, cells = texts.cells_of(str(self.path), [*self.labels, *axes])
+        lines, cells = formats.cells_of(str(self.path), [*self.labels, *axes])
         may_be_empty = {axis.name for axis in self.y} if isinstance(self.y, tuple) else set()
         columns: dict[str, Any] = {}
         for name, own in cells.items():

@@ -122,6 +122,15 @@ class Figure(Declared):
     timed: Truth = False
     explorer: Explorer | None = None
 
+    def faults(self) -> Iterator[str]:
+        """An `each` that lists no cases."""
+        for name, entry in self.comparisons.items():
+            each = entry.get("each", {})
+            inner = each.values() if isinstance(each, dict) else each
+            kind = list if isinstance(each, dict) else dict
+            if not (isinstance(each, dict | list) and all(isinstance(one, kind) for one in inner)):
+                yield f"comparisons.{name}.each: allowed is a list of cases, or lists by their key"
+
 
 @functools.cache
 def stated() -> dict[str, Stated]:
