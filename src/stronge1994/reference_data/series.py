@@ -121,11 +121,12 @@ class Fact:
 class Series:
     """Points of one source: its entry in source.yaml.
 
-    `path` is that of its table, None while it is awaited. `others` says that a code which is not
-    ours computed it. `sigma_values` is the number of independent values from which the sigmas were
-    estimated, None if they are known. `parameters` are those of the source, by name; `settings`
-    are those of a figure for which alone the points hold. `calibration` is that of the picture in
-    which the points were read, if it is known; `overlay` is a picture of it under our curves.
+    `path` is that of its table, None while it is awaited; `legend` is its name in a legend.
+    `others` says that a code which is not ours computed it. `sigma_values` is the number of
+    independent values from which the sigmas were estimated, None if they are known. `parameters`
+    are those of the source, by name; `settings` are those of a figure for which alone the points
+    hold. `calibration` is that of the picture in which the points were read, if it is known;
+    `overlay` is a picture of it under our curves.
     """
 
     kind: str
@@ -138,6 +139,7 @@ class Series:
     others: bool = False
     sigma_values: int | None = None
     figure: str = ""
+    legend: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
     settings: dict[str, Any] = field(default_factory=dict)
     open: tuple[str, ...] = ()
