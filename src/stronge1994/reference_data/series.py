@@ -202,6 +202,7 @@ class Series(Declared):
     others: Truth = False
     sigma_values: Whole | None = None
     figure: Text3 = ""
+    legend: Text3 = ""
     parameters: dict[str, float] = field(default_factory=dict)
     settings: dict[str, Any] = field(default_factory=dict)
     open: tuple[str, ...] = ()
@@ -212,7 +213,6 @@ class Series(Declared):
     digitised_by: Text3 = ""
     command: str = ""  # the one that computed it
     method: str = ""
-    legend: str = ""
     count: Whole | None = Field(default=None, alias="points")
     OURS: ClassVar = ("path", "name", "parameters", "calibration", "overlay")
 

@@ -100,8 +100,7 @@ def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Ent
     compared = references(config, inventory, figure).items()
     asked = figures.stated()[figure].get("draws", [])
     chosen = {name: entry for name, entry in compared if entry.get("kind") != "computed"}
-    chosen |= {full: reference(inventory, full) for full in asked}
-    return {name: entry for name, entry in chosen.items() if entry.get("kind") != "awaited"}
+    return chosen | {full: reference(inventory, full) for full in asked}
 
 
 def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str | None]:
