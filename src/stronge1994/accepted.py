@@ -23,8 +23,8 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Row]:
     """Rows of the accepted table, from the tables of a run.
 
     The size of a comparison is its root mean square distance, that of a stated fact the value
-    found; a law has a limit of its own, and no size here. Of an entry of the ledger it is the
-    number found.
+    found. A law has a limit of its own, so neither size nor points stand here. Of an entry of the
+    ledger it is the number found.
 
     >>> row = dict.fromkeys(COLUMNS, "") | {"comparison": "fig6-rebound", "size": "3.1e-16"}
     >>> of_run([row], [])[0]["size"]
@@ -35,11 +35,10 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Row]:
         {"name": row["entry"], "verdict": row["verdict"], "size": row["found"]} for row in ledger
     ]
     own = [{column: row.get(column, "") for column in COLUMNS} for row in found]
-    return [row | {"size": _without_rounding(row["size"])} for row in own]
-
-
-def _without_rounding(size: str) -> str:
-    return "0" if size and abs(float(size)) < ROUNDING else size
+    for row in own:
+        row["points"] = row["points"] if row["size"] else ""
+        row["size"] = "0" if row["size"] and abs(float(row["size"])) < ROUNDING else row["size"]
+    return own
 
 
 def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[Row]) -> list[str]:
