@@ -61,7 +61,7 @@ REPRODUCTION = {
     "ledger": "common bodies rigid lumped continuum noncollinear models"
     " printed tables reference_data judging",
     "judging": "common pandas tables names formulas goodness reference_data verdict_table",
-    "settings": "reference_data names",
+    "settings": "reference_data judging names",
     "imports": "",
     "versions": "",
     "logs": "",

@@ -200,7 +200,9 @@ def test_a_contraction_is_of_the_curves_that_it_names():
         ({"model": ["lumped", "continuum"]}, 2.0),
         ({}, 2.0),
     ):
-        law = Comparison("a", "contraction", "so", curve=curve, columns=["x [1]", "w [1]"])
+        law = Comparison(
+            "a", "contraction", "so", curve=curve, columns=["x [1]", "w [1]"], limit=1.0
+        )
         found = measure(law, table)
         assert found.at.tolist() == [1.0, 2.0] and found.sigmas.tolist() == [excess] * 2
 

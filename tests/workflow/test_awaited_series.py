@@ -16,7 +16,7 @@ from stronge1994 import settings as figure_settings
 from stronge1994.figures.fig8 import curves as fig8
 from stronge1994.judging import compare
 from stronge1994.reference_data import Series
-from tests.workflow.project import ROOT, awaited, config, head, schema
+from tests.workflow.project import ROOT, awaited, config, head
 
 CONFIG = config()
 RUBBER, LEWIS = "johnson1983/rubber_sphere", "lewis_rogers1988"
@@ -73,7 +73,7 @@ def judged(inventory, curves, tmp_path):
             table = pd.DataFrame({known.x.name: x, known.y.name: y}).to_csv(index=False)
             said = {"sigma_x": known.x.sigma, "sigma_y": known.y.sigma} | PICTURE.get(name, {})
             (tmp_path / f"{name}.csv").write_text(head(**said) + table)
-        found = inventory | {source: reference_data.load(tmp_path / source, schema("source"))}
+        found = inventory | {source: reference_data.load(tmp_path / source)}
         references = figure_settings.references(CONFIG, found, figure)
         path = curves / f"{figure}.csv"
         entries = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]] for name in points}

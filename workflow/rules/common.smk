@@ -38,7 +38,7 @@ try:
         [configuration.FILE, *workflow.config_settings.configfiles],
         workflow.config_settings.config_args or (),
     )
-    SOURCES = reference_data.load_all("data", reference_data.load_yaml("workflow/schemas/source.schema.yaml"))
+    SOURCES = reference_data.load_all("data")
     OF_LEDGER = entries.load(LEDGER, reference_data.load_yaml("workflow/schemas/ledger.schema.yaml"))
     ENTRIES = list(OF_LEDGER)
     configuration.check_config(config, SOURCES, ENTRIES)

@@ -193,7 +193,7 @@ def _refuse_missing(curves: Table, columns: Iterable[str]) -> None:
 def _from_fact(comparison: Comparison, fact: Fact, curves: Table) -> Measured:
     """A landmark against a stated fact."""
     sought = comparison.landmark
-    assert sought is not None  # as the schema has it
+    assert sought is not None  # as `Comparison` asks
     own = tables.select(curves, **comparison.curve)
     tables.only_curve(own)
     _refuse_missing(own, (sought.x, sought.y))
@@ -242,7 +242,7 @@ def _small(comparison: Comparison, curves: Table) -> Measured:
 
 def _range(comparison: Comparison, curves: Table) -> Measured:
     """Columns that must lie in a range: distances from its middle, in half its width."""
-    assert comparison.range is not None  # as the schema has it
+    assert comparison.range is not None  # as `Comparison` asks
     names, (low, high) = comparison.columns, comparison.range
     first, x, values = _of_law(comparison, curves)
     most = LARGEST_RANGE_RATIO * np.abs(values).max()

@@ -97,7 +97,7 @@ def _row(
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     notes = [measured.note]
     if verdict == Verdict.DIFFERS and known:
-        cells |= {"why": known.why, "paper": known.paper, "entry": known.entry}
+        cells |= {"why": known.why, "paper": known.paper or "", "entry": known.entry}
         notes = [plain(known.note), *notes]
     elif verdict in (Verdict.DIFFERS, Verdict.FAILS):
         cells |= {"why": Why.UNKNOWN} if verdict == Verdict.DIFFERS else {}

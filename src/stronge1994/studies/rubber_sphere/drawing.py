@@ -30,8 +30,8 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     bar = {"color": "0.75", "linewidth": 2.2, "label": "velocity alone (top), spin alone"}
     halves = axes.vlines(velocity[X], spin[E_T], velocity[E_T], zorder=1.2, **bar)
     impacts, stated = _impacts(points[IMPACTS], settings), _stated(points[STATED], settings)
-    circles = house_style.measured(axes, impacts, label="measured (Cross 2014)", **POINT)
-    diamond = POINT | {"marker": "D", "label": "stated, 2010 and 2002"}
+    circles = house_style.measured(axes, impacts, label=impacts.legend, **POINT)
+    diamond = POINT | {"marker": "D", "label": stated.legend}
     diamonds = house_style.measured(axes, stated, **diamond)
     axes.set_xlim(0, settings["incidence"][1])
     axes.set_title(rf"$e_t$; lines: models at $e = {settings['restitution']:g}$")
