@@ -55,6 +55,13 @@ for target, names in TARGETS.items():
             made(names),
 
 
+# In one piece, as Snakemake writes to the same terminal at the same time.
+STOPPED = """
+Stopped before the end, or a check has failed: it says so above. What was finished
+is kept; the same command goes on. Usual causes: workflow/README.md, Troubleshooting.
+"""
+
+
 onstart:
     # What a gate said in an earlier run is not said of this one.
     for path in Path("results/logs").glob("gate*.log"):
@@ -63,9 +70,8 @@ onstart:
 
 onsuccess:
     for path in sorted(Path("results/logs").glob("gate*.log")):
-        print(path.read_text(encoding="utf-8"))
+        print(path.read_text(encoding="utf-8"), end="")
 
 
 onerror:
-    print("Stopped before the end, or a check has failed: it says so above. What was finished is kept.")
-    print("The same command goes on from there. Usual causes: workflow/README.md, Troubleshooting.")
+    print(STOPPED, end="")

@@ -211,7 +211,7 @@ def test_a_run_that_was_stopped_goes_on(number, finished):
         assert "--unlock" in explained(finished.run("fig3"))
         assert finished.run("--unlock").returncode == 0
     else:
-        assert running.returncode == 1 and "What was finished is kept." in said
+        assert running.returncode == 1 and "What was finished\nis kept" in said
     missing = {"curves_fig3", "draw_fig3", "judge_fig3", "gate_fig3"}
     assert finished.jobs("fig3", "fig4")[1] == missing
 
