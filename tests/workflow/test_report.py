@@ -55,7 +55,7 @@ def numbers(rows_of):
 
 
 def test_each_is_one_file_that_needs_nothing_else(pages):
-    for name, pictures in (("report", 14), ("sources", 0), ("note", 4)):
+    for name, pictures in (("report", 14), ("sources", 0), ("note", 3)):
         text = pages(name)
         page = Page(text)
         assert len(page.resources) >= pictures
