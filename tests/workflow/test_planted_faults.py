@@ -33,7 +33,7 @@ PLANTED = {
     "an entry of the ledger": (
         "data/stronge1994/ledger.yaml",
         ("    verdict: confirmed\n", "    verdict: confirmed within rounding\n"),
-        ("ledger", "no longer holds: eq-01: recorded as confirmed within rounding, found"),
+        ("all", "no longer holds: eq-01: recorded as confirmed within rounding, found"),
     ),
 }
 

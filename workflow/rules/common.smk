@@ -48,6 +48,7 @@ except reference_data.SourceError as error:
     raise WorkflowError(str(error))
 
 PAPER = [figure for figure in FIGURES if is_of_paper(figure)]
+SHOWS = {figure: figures.stated()[figure]["shows"] for figure in PAPER}
 TIMED, SLIDES = figures.with_trait("timed"), figures.with_trait("slide")  # as figure.yaml says
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 # What can be asked for alone, and what it judges: Figs 2 to 9, each figure, each scene.

@@ -90,7 +90,7 @@ rule gate:
     params:
         rows=rows_of(JUDGED),
         entries=ENTRIES,
-        shows=lambda _: {name: figures.stated()[name]["shows"] for name in PAPER},
+        shows=lambda _: SHOWS,
     script:
         "../scripts/gate.py"
 
@@ -109,4 +109,4 @@ use rule gate as gate_of_target with:
     params:
         rows=lambda wildcards: rows_of(TARGETS[wildcards.target]),
         entries=[],
-        shows=lambda _: {name: figures.stated()[name]["shows"] for name in PAPER},
+        shows=lambda _: SHOWS,

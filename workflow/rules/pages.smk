@@ -1,12 +1,12 @@
 # Pages show what the tables of a run say. Each includes these beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html", "workflow/report/page.css"]
-# Pictures of prints under our curves, saved beside what was read there.
-OVERLAYS = {
-    f"{source}/{name}": series["overlay"]
+SERIES = {
+    f"{source}/{name}": series
     for source, entry in SOURCES.items()
     for name, series in entry.get("series", {}).items()
-    if series.get("overlay")
 }
+# Pictures of prints under our curves, saved beside what was read there.
+OVERLAYS = {name: series["overlay"] for name, series in SERIES.items() if series.get("overlay")}
 # Series of which the note states numbers. It needs them, fig5, inelastic and rubber_sphere.
 STATED = {"pairs": SOURCES["cornell1999"]["series"]["pairs"]}
 
@@ -116,11 +116,7 @@ rule your_copy:
         "../envs/planarimpact.yaml"
     params:
         figures=PAPER,
-        series=lambda _: {
-            f"{source}/{name}": entry
-            for source, stated in SOURCES.items()
-            for name, entry in stated.get("series", {}).items()
-        },
+        series=lambda _: SERIES,
         allowances=lambda _: {
             entry["reference"]: entry["allowance"]
             for entry in config["comparisons"].values()
