@@ -3,7 +3,7 @@
 #   snakemake --cores 2 paper      Figs 2 to 9, drawn and judged
 #   snakemake --cores 2 fig6       one figure: each has such a target
 #   snakemake --cores 2 figures    pictures only, without judging
-#   snakemake --cores 2 accept     accept what the run has found
+#   snakemake --cores 2 accept     accept what the run has found: writes data/accepted/verdicts.csv
 from snakemake.utils import min_version
 
 min_version("9.0")
@@ -22,8 +22,8 @@ rule all:
     input:
         rules.gate.output,
         # What is missing is made again only if it is asked for here.
-        made(JUDGED),
-        PAGES,
+        EVERYTHING,
+        rules.report.output.tables,
         expand("results/verdicts/{judged}.csv", judged=JUDGED),
         "results/verdicts.csv",
         "results/ledger.csv",

@@ -64,39 +64,39 @@ wildcard_constraints:
 
 
 # Code is an input like any other. Its content counts, not its date, see max-checksum-file-size in the profile.
-# Groups are coarse, as everything is made in two minutes; tests/workflow/test_code_inputs.py finds what they lack.
-def code(*patterns):
+# Groups are coarse, as a whole run takes little; tests/workflow/test_code_inputs.py finds what they lack.
+def files(*patterns):
     """Files by patterns, without bytecode, documents and the hidden files of editors."""
     paths = [path for pattern in patterns for path in Path().glob(pattern) if path.is_file()]
     return sorted(str(path) for path in paths if path.suffix not in (".pyc", ".md") and path.name[0] != ".")
 
 
-COMMON = code("src/planarimpact/*.py", "src/planarimpact/common/*", "src/stronge1994/*.py")
-COMMON += code(
+COMMON = files("src/planarimpact/*.py", "src/planarimpact/common/*", "src/stronge1994/*.py")
+COMMON += files(
     "src/stronge1994/figures/*.py", "src/stronge1994/studies/*.py", "src/stronge1994/reference_data/*"
 )
-SOLVER = [*code("src/planarimpact/**/*"), "environment.txt"]  # another version of a package solves again
-SOLVING = [*SOLVER, *COMMON, *code("src/stronge1994/printed/*", "src/stronge1994/figures/shared/curves/*")]
-DRAWING = [*COMMON, *code("src/stronge1994/figures/shared/drawing/*")]
-JUDGING = [*COMMON, *code("src/stronge1994/judging/*", "src/stronge1994/ledger/*")]
-WRITING = [*DRAWING, *JUDGING, *code("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
-WRITING += code("src/stronge1994/explorer/*", f"{figures.folder_of('inelastic')}/trials.py")
+SOLVER = [*files("src/planarimpact/**/*"), "environment.txt"]  # another version of a package solves again
+SOLVING = [*SOLVER, *COMMON, *files("src/stronge1994/printed/*", "src/stronge1994/figures/shared/curves/*")]
+DRAWING = [*COMMON, *files("src/stronge1994/figures/shared/drawing/*")]
+JUDGING = [*COMMON, *files("src/stronge1994/judging/*", "src/stronge1994/ledger/*")]
+WRITING = [*DRAWING, *JUDGING, *files("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
+WRITING += files("src/stronge1994/explorer/*", f"{figures.folder_of('inelastic')}/trials.py")
 
 
 def of_folder(without):
     """Modules in the folder of a figure, without one of them."""
     return lambda wildcards: [
-        path for path in code(f"{figures.folder_of(wildcards.figure)}/*.py") if Path(path).name != without
+        path for path in files(f"{figures.folder_of(wildcards.figure)}/*.py") if Path(path).name != without
     ]
 
 
 def of_figure(part):
-    """A part of `settings.of_figure`: settings of curves and drawing, `tables` to solve, `series` to draw."""
+    """A part of `settings.of_figure`: settings of curves and drawing; and files of data/, `tables` to solve and `series` to draw."""
     return lambda wildcards: FIGURES[wildcards.figure][part]
 
 
 def of_judged(part):
-    """A part of `settings.of_judgement`: settings, `table` of curves or of a scene, `series` to compare."""
+    """A part of `settings.of_judgement`: settings, the `table` of curves or of a scene, and `series` of data/ to compare."""
     return lambda wildcards: JUDGED[wildcards.judged][part]
 
 

@@ -12,9 +12,6 @@ rule judge:
     priority: priority
     conda:
         "../envs/planarimpact.yaml"
-    resources:
-        mem_mb=1000,
-        runtime=10,
     params:
         settings=of_judged("settings"),
     script:
@@ -51,15 +48,15 @@ rule ledger:
     priority: 1  # as it is long
     conda:
         "../envs/planarimpact.yaml"
-    resources:
-        mem_mb=1000,
-        runtime=10,
     script:
         "../scripts/check_ledger.py"
 
 
 rule accept:
-    """Accept what a run has found: whoever asks for this looks at the changes with git diff."""
+    """Write what a run has found to data/accepted/verdicts.csv: look at git diff, and then run again.
+
+    It is no output, as the gate reads it. What FAILS, or is of other settings, is refused.
+    """
     input:
         code=["workflow/scripts/accept.py", *JUDGING],
         verdicts=rules.verdicts.output,
@@ -79,8 +76,7 @@ rule gate:
         verdicts=rules.verdicts.output,
         ledger=rules.ledger.output.table,
         accepted=ACCEPTED,
-        made=made(JUDGED),
-        pages=PAGES,
+        made=EVERYTHING,
     output:
         "results/gate.txt",
     log:
@@ -96,7 +92,7 @@ rule gate:
 
 
 use rule gate as gate_of_target with:
-    # The same for a part of the run, by its own rows.
+    # The same for a part of the run, by its own rows. Inputs are replaced, other params are kept.
     input:
         code=["workflow/scripts/gate.py", *JUDGING],
         verdicts=lambda wildcards: expand(rules.judge.output.verdicts, judged=TARGETS[wildcards.target]),
@@ -109,4 +105,3 @@ use rule gate as gate_of_target with:
     params:
         rows=lambda wildcards: rows_of(TARGETS[wildcards.target]),
         entries=[],
-        shows=lambda _: SHOWS,

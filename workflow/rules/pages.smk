@@ -24,7 +24,7 @@ rule report:
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         stated=[series["path"] for series in STATED.values()],
         overlays=list(OVERLAYS.values()),
-        parts=sorted(map(str, Path("workflow/report").glob("*.*"))),
+        parts=files("workflow/report/*.*"),
     output:
         report="figures/report.html",
         sources="figures/sources.html",
@@ -85,7 +85,7 @@ rule explorer:
     """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
         code=["workflow/scripts/write_explorer.py", *SOLVER, *WRITING],
-        sources=sorted(map(str, Path("workflow/explorer").glob("*.*"))),
+        sources=files("workflow/explorer/*.*"),
         start="workflow/report/index.html",
         parts=EVERY_PAGE,
     output:
@@ -105,7 +105,7 @@ rule your_copy:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
         code=["workflow/scripts/write_your_copy.py", *WRITING],
-        sources=sorted(map(str, Path("workflow/your_copy").glob("**/*.*"))) + ["workflow/explorer/files.js"],
+        sources=files("workflow/your_copy/**/*.*", "workflow/explorer/files.js"),
         curves=expand("results/curves/{figure}.csv", figure=PAPER),
         parts=EVERY_PAGE,
     output:
@@ -135,13 +135,18 @@ PAGES = [
 ]
 
 
+# All that `all` makes, but for a folder, whose date would count.
+EVERYTHING = [*made(JUDGED), *(path for path in PAGES if path != rules.report.output.tables)]
+
+
 rule site:
     """All pages for students and readers, in one folder and as a zip file: five minutes of processor time."""
     input:
         code=["workflow/scripts/write_site.py", *SOLVER, *WRITING],
         made=[
-            *(path for path in PAGES if "answers_" not in path),  # which are for the teacher
-            *made(JUDGED),
+            *(
+                path for path in [*PAGES, *made(JUDGED)] if "answers_" not in path
+            ),  # which are for the teacher
             *expand("results/verdicts/{judged}.csv", judged=JUDGED),
             "results/ledger.csv",
         ],

@@ -32,9 +32,6 @@ rule scene:
         "results/logs/scene_{scene}.log",
     conda:
         "../envs/planarimpact.yaml"
-    resources:
-        mem_mb=1000,
-        runtime=10,
     params:
         tolerance=lambda wildcards: config["scenes"][wildcards.scene]["tolerance"],
     script:
