@@ -44,31 +44,29 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Row]:
 def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[Row]) -> list[str]:
     """Rows that are not as accepted, a line for each; those that FAIL are not looked at.
 
-    A comparison that nobody has accepted must not differ. So has one whose points were still
-    awaited. What cannot be compared with the settings of a run has not changed.
+    A comparison that nobody has accepted must not differ, nor one whose points were still awaited.
+    Of a figure that has other settings nothing can be told: the gate says so by itself.
 
     >>> was = dict.fromkeys(COLUMNS, "") | {"name": "a", "verdict": "differs", "size": "1.5"}
-    >>> now = dict.fromkeys(COLUMNS, "") | {"comparison": "a", "verdict": "differs", "size": "1.6"}
+    >>> now = was | {"figure": "fig6", "comparison": "a", "size": "1.6"}
     >>> changes([now], [], [was])
     ['changed: a: size 1.5 -> 1.6']
     """
     known = {row["name"]: row for row in accepted if row["why"] != Why.AWAITED}
     full = {row["comparison"]: row for row in verdicts}
+    others = {row["figure"] for row in verdicts if row["why"] == Why.SETTINGS}
+    verdicts = [row for row in verdicts if row["figure"] not in others]
     told = []
     for row in of_run(verdicts, ledger):
-        if row["verdict"] == Verdict.FAILS or row["why"] == Why.SETTINGS:
+        if row["verdict"] == Verdict.FAILS:
             continue
         if row["name"] in known:
             if changed := "; ".join(_changed(known[row["name"]], row)):
                 told.append(f"changed: {row['name']}: {changed}")
         elif row["verdict"] == Verdict.DIFFERS:
-            told.append(f"differs, and nobody has accepted it: {problem_of(full[row['name']])}")
+            what = f"{row['name']}: {problem(full[row['name']])}"
+            told.append(f"differs, and nobody has accepted it: {what}")
     return told
-
-
-def problem_of(row: Row) -> str:
-    """A comparison, and why it differs."""
-    return f"{row['comparison']}: {problem(row)}"
 
 
 def _changed(was: Row, now: Row) -> Iterator[str]:

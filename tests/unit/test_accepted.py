@@ -6,8 +6,8 @@ from stronge1994 import accepted, tables, verdict_table
 from stronge1994.ledger import outcome
 
 ROW = dict.fromkeys(verdict_table.COLUMNS, "") | {
-    "comparison": "fig6-far", "verdict": "differs", "why": "cause known", "points": "5",
-    "size": "0.15", "unit": "N", "rms": "0.15", "max": "0.2", "allowed": "max <= 0.1 N",
+    "figure": "fig6", "comparison": "fig6-far", "verdict": "differs", "why": "cause known",
+    "points": "5",    "size": "0.15", "unit": "N", "rms": "0.15", "max": "0.2", "allowed": "max <= 0.1 N",
 }  # fmt: skip
 ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {
     "entry": "eq-25", "verdict": "wrong", "holds": "yes", "found": "3.5",
@@ -42,6 +42,14 @@ def test_what_has_changed_is_told(was, now, told):
     known = accepted.of_run([ROW | was], [ENTRY])
     expected = [f"changed: fig6-far: {told}"] if told else []
     assert accepted.changes([ROW | now], [ENTRY], known) == expected
+
+
+def test_a_figure_with_other_settings_has_not_changed():
+    other = ROW | NOT_JUDGED | {"comparison": "fig6-near"}
+    known = accepted.of_run([ROW, other], [])
+    for figure, count in (("fig6", 0), ("fig7", 1)):
+        rows = [ROW | {"size": "9"}, other | {"figure": figure}]
+        assert len(accepted.changes(rows, [], known)) == count
 
 
 def test_a_new_row_may_not_differ_and_an_entry_keeps_its_number():
