@@ -7,7 +7,8 @@ from stronge1994.ledger import outcome
 
 ROW = dict.fromkeys(verdict_table.COLUMNS, "") | {
     "figure": "fig6", "comparison": "fig6-far", "verdict": "differs", "why": "cause known",
-    "points": "5",    "size": "0.15", "unit": "N", "rms": "0.15", "max": "0.2", "allowed": "max <= 0.1 N",
+    "points": "5", "size": "0.15", "unit": "N", "rms": "0.15", "max": "0.2",
+    "allowed": "max <= 0.1 N",
 }  # fmt: skip
 ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {
     "entry": "eq-25", "verdict": "wrong", "holds": "yes", "found": "3.5",
