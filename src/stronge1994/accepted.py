@@ -42,7 +42,7 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Row]:
 
 
 def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[Row]) -> list[str]:
-    """Rows that are not as accepted, a line for each; those that FAIL are not looked at.
+    """Rows that are not as accepted, a line for each, but for those that fail.
 
     A comparison that nobody has accepted must not differ, nor one whose points were still awaited.
     Of a figure that has other settings nothing can be told: the gate says so by itself.
@@ -56,6 +56,7 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
     full = {row["comparison"]: row for row in verdicts}
     others = {row["figure"] for row in verdicts if row["why"] == Why.SETTINGS}
     verdicts = [row for row in verdicts if row["figure"] not in others]
+    ledger = [row for row in ledger if row["holds"] != "no"]
     told = []
     for row in of_run(verdicts, ledger):
         if row["verdict"] == Verdict.FAILS:

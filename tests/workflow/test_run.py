@@ -161,6 +161,7 @@ def test_a_job_that_raises_is_named_at_the_end_and_the_others_are_done(finished)
     assert finished.jobs()[1] == missing
 
 
+LAPSED = "    verdict: confirmed\n", "    verdict: confirmed within rounding\n"  # of Eq. 1
 WRONG = """
 solve = curves
 def curves(stiffness_ratio, **others):
@@ -186,10 +187,12 @@ def test_a_wrong_solver_fails_the_run_in_any_folder_and_another_setting_does_not
     assert "CalledProcessError" not in said and not (project / "results/gates/fig3.txt").exists()
     assert (project / "figures/fig3.svg").is_file()
     changed(project / f"{FOLDER}/fig3/curves.py", new=WRONG)
+    changed(project / "data/stronge1994/ledger.yaml", *LAPSED)
     result = project.run(**given)
     said = " ".join(result.stdout.split())
     assert result.returncode == 1 and "PASSED" not in said, said
-    assert "FAILED. Reasons: 2 FAILS: fig3-events: largest for " in said, said
+    assert "FAILED. Reasons: 3 FAILS: fig3-events: largest for " in said, said
+    assert "no longer holds: eq-01: recorded as confirmed within rounding, found confirmed" in said
     assert "<title>Failed" in (project / "figures/report.html").read_text()
 
 
@@ -225,14 +228,14 @@ def test_a_gate_that_failed_fails_again_until_a_row_is_accepted(finished):
     whole = accepted.read_text()
     changed(accepted, "fig3-events,passed,,0,", "fig3-events,passed,,1,")
     for _ in range(2):
-        result = finished.run()
+        result = finished.run("fig3")
         assert result.returncode == 1, result.stdout
         assert (
             "\nchanged: fig3-events: size 1 m2 Omega v2(0) -> 0 m2 Omega v2(0)\n" in result.stdout
         )
     assert finished.run("accept").returncode == 0 and accepted.read_text() == whole
-    assert finished.run().returncode == 0
-    assert "Nothing to be done" in finished.run("--dry-run").stdout
+    assert finished.run("fig3").returncode == 0
+    assert "Nothing to be done" in finished.run("fig3", "--dry-run").stdout
 
 
 def test_a_command_in_another_folder_says_where_it_belongs(fresh, tmp_path_factory):
