@@ -130,8 +130,8 @@ def _judged(
     """The verdict, and the cells of numbers; sizes are in the unit of the axis."""
     verdict, chi2, error = judge(comparison, measured, significance)
     quantity, _, unit = measured.columns[measured.worst].rstrip("]").partition(" [")
-    numbers = dict(zip(("rms", "max"), measured.sizes, strict=True))
-    numbers |= dict(zip(("rms [sigma]", "max [sigma]"), rms_and_max(measured.sigmas), strict=True))
+    sizes = *measured.sizes, *rms_and_max(measured.sigmas)
+    numbers = dict(zip(("rms", "max", "rms [sigma]", "max [sigma]"), sizes, strict=True))
     cells: VerdictRow = {key: f"{number:.3g}" for key, number in numbers.items()}
     cells |= {"size": f"{numbers['rms']:.6g}"}
     cells |= {"points": len(measured.at), "column": quantity, "unit": unit}
