@@ -42,7 +42,7 @@ class Item(NamedTuple):
     @property
     def text(self) -> str:
         """What it says, without its source and why it differs."""
-        return f"{self.says} {self.size}".strip()
+        return f"{self.says} {self.size}".strip(" ,")
 
     @property
     def reason(self) -> str:
