@@ -16,7 +16,21 @@ PATH = "data/accepted/verdicts.csv"
 COLUMNS = ["name", "verdict", "why", "size", "unit", "points"]
 # Sizes of other machines are alike up to this share of the larger, or up to this rounding.
 SHARE, ROUNDING = 1e-3, 1e-12
-ACCEPT = "To accept what this run found: snakemake --cores 2 accept"
+ACCEPT = """\
+Left of an arrow stands what was accepted, right of it what this run found.
+To accept that: snakemake --cores 2 accept"""
+
+
+def read(path: str = PATH) -> list[Row]:
+    """Rows of the accepted table; a size that is no number is a `ValueError`."""
+    rows = tables.read_rows(path, COLUMNS)
+    for line, row in enumerate(rows, 2):
+        try:
+            float(row["size"] or 0)
+        except ValueError:
+            problem = f"{row['size']!a} is no number; was the table edited by hand?"
+            raise ValueError(f"{path}, line {line}, column 'size': {problem}") from None
+    return rows
 
 
 def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Row]:

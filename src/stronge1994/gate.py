@@ -26,7 +26,7 @@ UNMADE = (
     "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "
     "({}). To draw without judging, with your --config: snakemake --cores 2 figures"
 )
-ON_PURPOSE = "On purpose? To draw without judging: snakemake --cores 2 figures"
+ON_PURPOSE = "Other settings on purpose? To draw without judging: snakemake --cores 2 figures"
 
 
 def faults(
@@ -40,18 +40,18 @@ def faults(
 
     `comparisons` and `entries` name the rows that the tables of verdicts and of the ledger must
     have, and `known` has the rows of the accepted table. A whole run, which has entries, has all of
-    these.
+    these, and a part of it those of its figures.
 
     >>> faults([], [], ["fig6-printed"], [], [])
     ['missing: fig6-printed']
     """
     there = {row["comparison"] for row in verdicts} | {row["entry"] for row in ledger}
-    asked = {*comparisons, *entries}
+    asked, figures = {*comparisons, *entries}, {row["figure"] for row in verdicts}
     return [
         *(
             f"accepted, but no longer compared: {row['name']}"
             for row in known
-            if entries and row["name"] not in asked
+            if row["name"] not in asked and (entries or row["name"].partition("-")[0] in figures)
         ),
         *(f"missing: {name}" for name in [*comparisons, *entries] if name not in there),
         *(
@@ -97,7 +97,8 @@ def summary(
         parts += [_filled(fault) for fault in wrong[:MOST_FAULTS]]
         more = len(wrong) - MOST_FAULTS
         parts += [f"  and {more} more: results/verdicts/, results/ledger.csv"] if more > 0 else []
-        parts += [accepted.ACCEPT]
+        may = any(fault.startswith(("changed", "differs", "accepted")) for fault in wrong)
+        parts += [accepted.ACCEPT] if may else []
     elif ledger and not others:
         found = Counter(row["verdict"] for row in verdicts)
         checks = len(verdicts) - found[Verdict.NOT_COMPARED] + len(ledger)

@@ -76,3 +76,7 @@ def test_what_a_run_found_is_accepted_unless_it_fails_or_is_of_other_settings(
         with pytest.raises(ValueError, match="1 rows cannot be accepted"):
             accepted.write(rows, ledger)
     assert tables.read_rows(accepted.PATH) == known
+    path = tmp_path / accepted.PATH
+    path.write_text(path.read_text().replace("3.5", "3.S"))
+    with pytest.raises(ValueError, match="verdicts.csv, line 3, column 'size': '3.S' is no number"):
+        accepted.read()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stronge1994 import gate, verdict_table
+from stronge1994 import accepted, gate, verdict_table
 from stronge1994.ledger import outcome
 
 VERDICT = {
@@ -31,6 +31,15 @@ def test_a_row_that_fails_or_is_missing_is_a_fault(changes, fault):
     verdict, entry = VERDICT | changes[0], ENTRY | changes[1]
     found = gate.faults([verdict], [entry], ["fig6-rebound"], ["eq-25"], [])
     assert len(found) == bool(fault) and all(words.startswith(fault) for words in found)
+
+
+def test_an_accepted_row_that_is_gone_is_told_by_its_figure_and_by_a_whole_run():
+    known = [{**row, "verdict": "agrees", "why": ""} for row in accepted.of_run([VERDICT], [])]
+    known += [row | {"name": "fig7-other"} for row in known] + accepted.of_run([], [ENTRY])
+    there = [VERDICT | {"comparison": "fig6-new"}], ["fig6-new"]
+    told = gate.faults(there[0], [], there[1], [], known)
+    assert told == ["accepted, but no longer compared: fig6-rebound"]
+    assert len(gate.faults(there[0], [ENTRY], there[1], ["eq-25"], known)) == 2
 
 
 def told(wrong=(), ledger=(ENTRY,), figures=("fig6", "fig7"), **cells):
@@ -67,11 +76,13 @@ def test_printed_curves_are_counted_and_fail_no_run():
 
 
 def test_a_failed_run_names_its_rows_last_and_how_to_accept_them():
-    said = told([f"FAILS: row-{i}: rms 0.1" for i in range(10)], verdict="FAILS")
+    said = told([f"changed: row-{i}: size 1 -> 2" for i in range(10)], verdict="differs")
     assert "PASSED" not in said and "Play" not in said
-    last = said.strip().splitlines()[-gate.MOST_FAULTS - 3 :]
-    assert last[0] == "FAILED. Reasons: 10" and last[1].startswith("FAILS: row-0: rms 0.1")
-    assert last[-2].startswith("  and 2 more: results/") and last[-1].endswith("accept")
+    last = said.strip().splitlines()[-gate.MOST_FAULTS - 4 :]
+    assert last[0] == "FAILED. Reasons: 10" and last[1] == "changed: row-0: size 1 -> 2"
+    assert last[-3].startswith("  and 2 more: results/") and last[-1].endswith("accept")
+    said = told(["FAILS: row-0: rms 0.1"], verdict="FAILS")  # which nobody can accept
+    assert said.endswith("FAILED. Reasons: 1\nFAILS: row-0: rms 0.1")
 
 
 def test_a_run_with_other_settings_is_not_judged_and_says_how_to_draw():

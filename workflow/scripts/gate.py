@@ -13,7 +13,7 @@ from stronge1994.ledger import outcome
 given, asked = snakemake.input, snakemake.params
 verdicts = verdict_table.gather(given.verdicts)
 ledger = tables.read_rows(given.ledger, outcome.COLUMNS) if asked.entries else []
-known = tables.read_rows(given.accepted, accepted.COLUMNS)
+known = accepted.read(given.accepted)
 faults = gate.faults(verdicts, ledger, asked.rows, asked.entries, known)
 told = gate.summary(verdicts, ledger, faults, asked.shows)
 print(told)

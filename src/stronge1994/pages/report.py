@@ -206,7 +206,7 @@ def write(
         for name, picture in pictures.items()
     }
     run = versions.of_run()
-    known = tables.read_rows(given.accepted, accepted.COLUMNS)
+    known = accepted.read(given.accepted)
     values = {
         "verdicts": shown,
         "table": table,

@@ -48,6 +48,7 @@ LARGEST_SIGMA = 0.01
 Text3: TypeAlias = Annotated[str, Field(min_length=3)]
 Text10: TypeAlias = Annotated[str, Field(min_length=10)]
 Name: TypeAlias = Annotated[str, Field(pattern="^[a-z0-9_.]+$")]
+Column: TypeAlias = Annotated[str, Field(pattern="^[a-z_]+$")]
 
 
 @dataclass(frozen=True, config=CONFIG)
@@ -58,9 +59,9 @@ class Axis(Declared):
     may lie outside the range by `slack`, for an error that all points of a reading share.
     """
 
-    column: Annotated[str, Field(pattern="^[a-z_]+$")]
+    column: Column
     unit: str
-    sigma: Number | str
+    sigma: Number | Column
     range: Span
     slack: float = 0.0
     symbol: str = ""
