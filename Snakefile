@@ -3,6 +3,7 @@
 #   snakemake --cores 2 paper      Figs 2 to 9, drawn and judged
 #   snakemake --cores 2 fig6       one figure: each has such a target
 #   snakemake --cores 2 figures    pictures only, without judging
+#   snakemake --cores 2 accept     accept what the run has found: writes data/accepted/verdicts.csv
 from snakemake.utils import min_version
 
 min_version("9.0")
@@ -11,27 +12,21 @@ min_version("9.0")
 include: "workflow/rules/common.smk"
 include: "workflow/rules/solving.smk"
 include: "workflow/rules/drawing.smk"
-include: "workflow/rules/judging.smk"
 include: "workflow/rules/pages.smk"
+include: "workflow/rules/judging.smk"
 
 
 rule all:
-    """Everything. It has no output, so it always runs, and fails if a row of the tables does."""
+    """Everything, if it passes the gate."""
     default_target: True
     input:
-        verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
-        ledger="results/ledger.csv",
-        made=made(JUDGED),
-        pages=PAGES,
-    log:
-        "results/logs/all.log",
-    conda:
-        "workflow/envs/planarimpact.yaml"
-    params:
-        rows=rows_of(JUDGED),
-        entries=ENTRIES,
-    script:
-        "workflow/scripts/gate.py"
+        rules.gate.output,
+        # What is missing is made again only if it is asked for here.
+        EVERYTHING,
+        rules.report.output.tables,
+        expand("results/verdicts/{judged}.csv", judged=JUDGED),
+        "results/verdicts.csv",
+        "results/ledger.csv",
 
 
 rule figures:
@@ -47,35 +42,36 @@ rule notebooks:
         expand(rules.lecture.output, notebook=NOTEBOOKS),
 
 
-# What can be asked for alone: Figs 2 to 9, each figure, each scene.
-for target, names in [("paper", PAPER), *((name, [name]) for name in JUDGED)]:
+for target, names in TARGETS.items():
     if workflow.is_rule(target):
-        raise WorkflowError(f"src/stronge1994/figures/{target}: a rule has this name, give it another")
+        raise WorkflowError(f"{figures.folder_of(target)}: a rule has this name, give it another")
 
     rule:
         """Drawn, and judged as `all` is, by its own rows."""
         name:
             target
         input:
-            verdicts=expand("results/verdicts/{judged}.csv", judged=names),
-            made=made(names),
-        log:
-            f"results/logs/{target}.log",
-        conda:
-            "workflow/envs/planarimpact.yaml"
-        params:
-            rows=rows_of(names),
-        script:
-            "workflow/scripts/gate.py"
+            f"results/gates/{target}.txt",
+            made(names),
+
+
+# In one piece, as Snakemake writes to the same terminal at the same time.
+STOPPED = """
+Stopped before the end, or a check has failed: it says so above. What was finished
+is kept; the same command goes on. Usual causes: workflow/README.md, Troubleshooting.
+"""
 
 
 onstart:
-    print(notice(), end="")
+    # What a gate said in an earlier run is not said of this one.
+    for path in Path("results/logs").glob("gate*.log"):
+        path.unlink()
 
 
 onsuccess:
-    print(summary(stopped=False))
+    for path in sorted(Path("results/logs").glob("gate*.log")):
+        print(path.read_text(encoding="utf-8"), end="")
 
 
 onerror:
-    print(summary(stopped=True))
+    print(STOPPED, end="")

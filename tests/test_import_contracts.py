@@ -42,7 +42,7 @@ REPRODUCTION = {
     "names": "",
     "words": "names",
     "tables": "common pandas",
-    "solving": "pandas tables",
+    "solving": "names pandas tables",
     "verdict_table": "tables",
     "figure_table": "names words pandas tables verdict_table",
     "formulas": "",
@@ -50,24 +50,28 @@ REPRODUCTION = {
     "reference_data": "common pandas tables",
     "printed": "common lumped",
     "explorer": "planarimpact common lumped continuum bodies collision reference_data pages",
-    "figures/solving": "planarimpact common bodies rigid lumped continuum noncollinear models"
-    " spheres fit scene pandas printed tables names figures settings",
+    "figures/solving": "planarimpact common bodies rigid lumped continuum models"
+    " pandas printed tables names figures",
     "figures/drawing": "planarimpact common tables names words goodness reference_data figures"
     " verdict_table matplotlib pandas",
+    "studies/solving": "planarimpact common bodies rigid lumped continuum noncollinear models"
+    " spheres scene pandas printed tables names figures studies settings",
+    "studies/drawing": "planarimpact common tables names words goodness figures studies"
+    " matplotlib pandas",
     "ledger": "common bodies rigid lumped continuum noncollinear models"
     " printed tables reference_data judging",
     "judging": "common pandas tables names formulas goodness reference_data verdict_table",
-    "settings": "reference_data names",
-    "imports": "",
-    "versions": "",
+    "settings": "reference_data judging names",
+    "versions": "planarimpact",
     "logs": "",
-    "gate": "tables figure_table verdict_table ledger",
-    "pages": "common bodies export tables reference_data figures formulas goodness judging"
-    " ledger settings gate versions names words figure_table verdict_table"
+    "accepted": "tables verdict_table",
+    "gate": "accepted tables figure_table verdict_table ledger",
+    "pages": "common bodies export tables reference_data figures studies formulas goodness judging"
+    " ledger settings accepted gate versions names words figure_table verdict_table"
     " jinja2 pandas matplotlib",
 }
-# The figures have one folder each, and in it files that solve and files that draw, or that judge
-# what is drawn.
+# Figures and studies have one folder each, and in it files that solve and files that draw, or that
+# judge what is drawn.
 DRAWING = ("drawing", "draw_", "trials")
 CONTRACTS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
 # Of a package of the solver others import its `__init__` or one of these. In `common` and in the
@@ -101,7 +105,8 @@ def broken_contracts(side, package, source):
             continue
         if name not in CONTRACTS[side][package].split():
             yield f"{package} may not import {name}"
-        if package == "figures/drawing" and inner[:1] == ["figures"] and inner[2:3] == ["curves"]:
+        of_figure = inner[:1] in (["figures"], ["studies"])
+        if package.endswith("/drawing") and of_figure and inner[2:3] == ["curves"]:
             yield "a drawing never solves"
         file = SRC.joinpath(top, *inner[:2])
         is_module = len(inner) > 1 and (file.is_dir() or file.with_suffix(".py").is_file())

@@ -16,15 +16,20 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from planarimpact import bodies, fit
 from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.fit import overlaps
-from stronge1994.figures.fitted_laws import curves
 
 HERE = Path(__file__).resolve().parent
-FIGURE = HERE.parents[1] / "src/stronge1994/figures/fitted_laws/figure.yaml"
+# Poisson's ratio, restitution and loss of each pair of equal spheres.
+PAIRS = {
+    "steel": (0.3, 0.8, "plastic"),
+    "glass": (0.25, 0.97, "viscous"),
+    "polyurethane": (0.5, 0.6, "viscous"),
+}
+LAWS = ("lammps-hertz-mindlin", "lammps-hooke")
+MASS_RATIO, INCIDENCE_MAX = 3.5, 6.0
 SPHERE = {"radius": 0.002, "density": 2500.0, "friction": 0.2, "speed": 1e-3}
 YOUNG_MODULUS = 70e9
 # Every so many incidences of the fit.
@@ -128,13 +133,20 @@ def before(lines: str, nu: float, e: float) -> str:
     return "\n".join([*rest, f"pair_coeff * * {words} damping coeff_restitution"])
 
 
-def rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
+def fitted(law: str, pair: str) -> fit.Fit:
+    """A law, fitted to the continuum of a pair."""
+    nu, e, loss = PAIRS[pair]
+    zeta2 = float(bodies.stiffness_ratio(bodies.Material(YOUNG_MODULUS, nu)))
+    return fit.fit(law, MASS_RATIO, zeta2, e, loss=loss, incidence_max=INCIDENCE_MAX)
+
+
+def rows() -> list[list[object]]:
     """Pair, law, variant, incidence and velocity of every impact."""
     measured = []
-    for pair, laws in curves.fitted(pairs, incidence_max).items():
-        nu, e = (float(pairs[pair][key]) for key in ("poisson_ratio", "restitution"))
+    for pair, (nu, e, _) in PAIRS.items():
         material = bodies.Material(YOUNG_MODULUS, nu)
-        for law, found in laws.items():
+        for law in LAWS:
+            found = fitted(law, pair)
             lines = fit.lines(found, material, **SPHERE)
             x = found.incidence[::EVERY]
             for name, text in (("before", before(lines, nu, e)), ("after", lines)):
@@ -146,13 +158,14 @@ def rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
     return measured
 
 
-def overlap_rows(pairs: dict[str, Any], incidence_max: float) -> list[list[object]]:
+def overlap_rows() -> list[list[object]]:
     """Pair, law, friction, overlap, and how far LAMMPS, with the lines of a fit, is from it."""
     measured = []
-    for pair, laws in curves.fitted(pairs, incidence_max).items():
-        material = bodies.Material(YOUNG_MODULUS, float(pairs[pair]["poisson_ratio"]))
+    for pair, (nu, *_) in PAIRS.items():
+        material = bodies.Material(YOUNG_MODULUS, nu)
         slow = fit.overlap(material, *(SPHERE[key] for key in ("radius", "density", "speed")))
-        for law, found in laws.items():
+        for law in LAWS:
+            found = fitted(law, pair)
             for friction, size in itertools.product(overlaps.FRICTIONS, overlaps.OVERLAPS):
                 speed = SPHERE["speed"] * (size / slow) ** 1.25
                 sphere = SPHERE | {"friction": friction, "speed": speed}
@@ -164,20 +177,11 @@ def overlap_rows(pairs: dict[str, Any], incidence_max: float) -> list[list[objec
     return measured
 
 
-def settings() -> dict[str, Any]:
-    """Settings of the figure, by their values."""
-    return _values(yaml.safe_load(FIGURE.read_text(encoding="utf-8"))["settings"])
-
-
-def _values(node: dict[str, Any]) -> Any:
-    return node["value"] if "value" in node else {key: _values(own) for key, own in node.items()}
-
-
 if __name__ == "__main__":
     header = ["pair", "model", "variant", "incidence [mu v2(0)]", "velocity [mu v2(0)]"]
-    impacts = pd.DataFrame(rows(**settings()), columns=header)
+    impacts = pd.DataFrame(rows(), columns=header)
     impacts.to_csv(HERE / "rebound.csv", index=False, lineterminator="\n")
     ends = ["cost_sticking [mu v2(0)]", "cost_sliding [mu v2(0)]"]
     header = ["pair", "model", "mu", "overlap [radius]", *ends]
-    costs = pd.DataFrame(overlap_rows(**settings()), columns=header)
+    costs = pd.DataFrame(overlap_rows(), columns=header)
     costs.to_csv(HERE / "overlap.csv", index=False, lineterminator="\n")

@@ -24,7 +24,7 @@ from scipy import optimize
 
 from planarimpact import continuum, models
 from planarimpact.common.arrays import Array
-from stronge1994.figures.trade import curves as trade
+from stronge1994.studies.trade import curves as trade
 
 TABLE = Path(__file__).with_name("impacts.csv")
 HEADER = [

@@ -42,7 +42,7 @@ class Item(NamedTuple):
     @property
     def text(self) -> str:
         """What it says, without its source and why it differs."""
-        return f"{self.says} {self.size}".strip()
+        return f"{self.says} {self.size}".strip(" ,")
 
     @property
     def reason(self) -> str:
@@ -203,6 +203,5 @@ def counted(rows: Iterable[Row], solver: bool = False) -> str:
     for verdict in reversed(Verdict):
         names = [words.figure(row["figure"]) for row in own if row["verdict"] == verdict]
         where = f" ({', '.join(dict.fromkeys(names))})" if verdict == Verdict.DIFFERS else ""
-        models = "models: " if where and solver else ""  # a solver is right or wrong
-        parts += [f"{models}{len(names)} {verdict}{where}"] if names else []
+        parts += [f"{len(names)} {verdict}{where}"] if names else []
     return ", ".join(parts)

@@ -1,10 +1,8 @@
 """The log of a job."""
 
-import signal
 import sys
 
 
 def to(path: str) -> None:
-    """Send what this process prints, its errors too, to a file; an interrupt ends it in silence."""
+    """Send what this process prints, its errors too, to a file."""
     sys.stdout = sys.stderr = open(path, "w", encoding="utf-8")  # noqa: SIM115  (until it ends)
-    signal.signal(signal.SIGINT, signal.SIG_DFL)

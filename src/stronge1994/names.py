@@ -8,12 +8,20 @@ CONTINUA = ("continuum.viscous", "continuum.plastic")
 PAPER = "lumped.hysteretic"
 MODELS = (PAPER, "lumped.unloading-stiffness", "lumped.viscous", *CONTINUA[::-1])
 STRONGE = "stronge1994"  # the source of what the paper states and prints
-# Models without loss, and for comparison alone, see the figure `yielding`.
-ELASTIC, ELASTIC_IN_SHEAR = "continuum", "continuum.plastic-elastic-shear"
+ELASTIC = "continuum"  # without loss
 # The printed equations, as far as they differ from the lumped model; and the variant that has the
 # places where they have no solution, with the answers of that model.
 PRINTED, NO_SOLUTION = "printed", "no solution"
 SCENE = "scene_"  # before the name of a scene, among what is judged
+
+
+def home(figure: str) -> str:
+    """Name of the package that has the folder of a figure.
+
+    >>> home("fig5"), home("rod")
+    ('figures', 'studies')
+    """
+    return "figures" if is_of_paper(figure) else "studies"
 
 
 def is_of_paper(figure: str) -> bool:

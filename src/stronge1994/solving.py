@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 import pandas as pd
 
 from stronge1994 import tables
+from stronge1994.names import home
 
 # CSV of a reference table: its x column; None stands for the whole table.
 Tables: TypeAlias = Mapping[str, str | None]
@@ -18,7 +19,7 @@ def solve(figure: str, settings: dict[str, Any], nodes: Tables, output: str) -> 
     `nodes` names reference tables. Curves must pass through the points of their x columns; a whole
     table becomes the setting `points` instead.
     """
-    module = importlib.import_module(f"stronge1994.figures.{figure}.curves")
+    module = importlib.import_module(f"stronge1994.{home(figure)}.{figure}.curves")
     tables.write(output, module.curves(**settings | read_nodes(nodes)))
 
 

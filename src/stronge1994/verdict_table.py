@@ -10,21 +10,21 @@ from stronge1994.tables import Row, with_unit
 WIDTH = 80  # of a terminal
 # Texts that may hold a comma stand last.
 COLUMNS = [
-    "figure", "comparison", "group", "verdict", "why", "points", "rms", "max", "unit",
+    "figure", "comparison", "group", "verdict", "why", "points", "size", "rms", "max", "unit",
     "chi^2", "degrees of freedom", "degrees of sigma", "p", "would fail", "rms [sigma]",
     "max [sigma]", "found", "stated", "column", "entry", "paper", "reference", "model",
-    "curve", "says", "allowed", "bounds", "note", "reason",
+    "curve", "says", "allowed", "note", "reason",
 ]  # fmt: skip
 
 
 class Verdict(StrEnum):
-    """What a comparison says, worst first; only FAILS fails a run.
+    """What a comparison found, worst first; whether a run passes is asked by the `gate`.
 
-    DIFFERS is a known difference that has kept its bounds, and `Why` says what is known of it.
-    CANNOT_TELL is no evidence: published points would also agree with a curve that is a tenth too
-    large, or their p is between agreement and difference, see `judging.verdicts`. PASSED is a check
-    of our solver by our own second codes, by 40 digits or by a law; such a check never agrees with
-    anything.
+    DIFFERS is a difference from the paper or from others, and `Why` says what is known of it. FAILS
+    is a check of our solver that has left its tolerance, or what cannot be compared. CANNOT_TELL is
+    no evidence: published points would also agree with a curve that is a tenth too large, or their
+    p is between agreement and difference, see `judging.verdicts`. PASSED is a check of our solver
+    by our own second codes, by 40 digits or by a law; such a check never agrees with anything.
     """
 
     FAILS = "FAILS"
@@ -60,12 +60,6 @@ class Group(StrEnum):
 def gather(paths: Iterable[str]) -> list[Row]:
     """Rows of several tables."""
     return [row for path in paths for row in tables.read_rows(path, COLUMNS)]
-
-
-def known(rows: Iterable[Row]) -> list[Row]:
-    """Known differences, which have bounds; a printed curve that follows a misprint has none."""
-    differ = (row for row in rows if row["verdict"] == Verdict.DIFFERS)
-    return [row for row in differ if row["group"] != Group.PRINTED]
 
 
 def outcome(row: Row) -> str:
@@ -117,10 +111,9 @@ def noticed(row: Row) -> str:
 
 
 def problem(row: Row) -> str:
-    """Why a row fails: its bound, or with a known difference that it was to stay as it was."""
-    bound = f"a known difference with {row['bounds']}" if row["bounds"] else row["allowed"]
+    """Why a row differs or fails: what was found, and what is allowed."""
     found = "; ".join(part for part in (measured(row), chance(row)) if part)
-    limits = f"{found}; allowed is {bound}" if found else ""
+    limits = f"{found}; allowed is {row['allowed']}" if found else ""
     return ": ".join(part for part in (row["note"], limits) if part)
 
 

@@ -1,7 +1,6 @@
 """What a run was made with: versions, computer, date and commit."""
 
 import datetime
-import json
 import os
 import platform
 import subprocess
@@ -9,23 +8,22 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+import planarimpact
+
 PACKAGES = ("numpy", "scipy", "matplotlib", "pandas", "snakemake")
 NO_COMMIT = "unknown: not a git checkout, or git is missing"
 
 
-def installed(solver: str) -> dict[str, str]:
-    """Versions of Python, of the `solver` and of packages that a run uses, `{name: version}`.
-
-    That of the solver is given: pictures import this module, and so would depend on all of it.
-    """
-    own = {"python": platform.python_version(), "planarimpact": solver}
+def installed() -> dict[str, str]:
+    """Versions of Python, of the solver and of packages that a run uses, `{name: version}`."""
+    own = {"python": platform.python_version(), "planarimpact": planarimpact.__version__}
     return own | {name: metadata.version(name) for name in PACKAGES}
 
 
-def of_run(path: str) -> dict[str, Any]:
-    """Facts about a run, by name: the versions in its table of versions, and what is so now."""
+def of_run() -> dict[str, Any]:
+    """Facts about a run, by name."""
     return {
-        "versions": json.loads(Path(path).read_text(encoding="utf-8")),
+        "versions": installed(),
         # Without the name of the machine.
         "system": f"{platform.platform()}, {os.cpu_count()} processors",
         "date": f"{datetime.datetime.now(datetime.UTC):%d %B %Y, %H:%M} UTC",
@@ -33,10 +31,9 @@ def of_run(path: str) -> dict[str, Any]:
     }
 
 
-def source(path: str) -> str:
-    """What made a picture, for its metadata; `path` is the table of versions of the run."""
-    own = json.loads(Path(path).read_text(encoding="utf-8"))["planarimpact"]
-    return f"planarimpact {own}, commit {commit('.')}"
+def source() -> str:
+    """What made a picture, for its metadata."""
+    return f"planarimpact {planarimpact.__version__}, commit {commit('.')}"
 
 
 def commit(folder: str | Path) -> str:

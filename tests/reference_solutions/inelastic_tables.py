@@ -47,7 +47,7 @@ SPREADS += [f"{reach}, by angle" for reach in SPREADS]
 # Impacts of a fit, and how many of them are solved; the others lie on chords.
 IMPACTS, SOLVED = 3000, 121
 STEPS, SPRINGS = 1600, 400
-# Of the grid, of the ball under a table, and of the continua in Figs 5, 6 and 9: solved with half
+# Of the grid, and of the continua in Figs 5, 6 and 9: solved with half
 # of each too, and extrapolated, as errors are in proportion to the step.
 FINE_STEPS, FINE_SPRINGS = 6400, 1600
 CONTINUA = MODELS[:2]
@@ -58,17 +58,6 @@ FIGURES_E = 0.5
 GRID_E = 0.8
 GRID_OUTPUTS = ["peak_friction [mu F2max]", "dissipation [mu^2 m2 v2(0)^2]"]
 GRID = [round(0.1 * k, 1) for k in range(81)]
-# The pairs for which laws of other codes are fitted: model, Poisson's ratio, restitution.
-FITTED = {
-    "steel": ("continuum.plastic", 0.3, 0.8),
-    "glass": ("continuum.viscous", 0.25, 0.97),
-    "polyurethane": ("continuum.viscous", 0.5, 0.6),
-}
-FITTED_INCIDENCES = [round(0.3 * k, 1) for k in range(21)]
-# The ball that is thrown under a table.
-THROW = {"radius": 0.025, "friction": 0.8, "restitution": 0.9, "velocity": (6.0, -5.0), "gap": 0.7}
-BOUNCES = 3
-PATH = ["place [m]", "height [m]", "velocity_x [m/s]", "velocity_z [m/s]", "spin_y [rad/s]"]
 # The rubber sphere, beside the elastic continuum: at one e, and impacts below an incidence.
 ELASTIC = "continuum"
 RUBBER_E, RUBBER_LIMITS = 0.9, (2.5, 8.5)
@@ -86,13 +75,10 @@ def tables():
     """Every table by its name."""
     angles = [(mu, angle) for mu, angles in FIG9_ANGLES.items() for angle in angles]
     rebound = ["model", "e", INCIDENCE, VELOCITY]
-    fitted = ["pair", "model", INCIDENCE, VELOCITY]
     turned = ["restitution [1]", "tangential_restitution [1]"]
     return {
         "rebound": table(rebound, _at_incidence, product(MODELS, INCIDENCES)),
         "rebound_grid": table([*rebound, *GRID_OUTPUTS], _on_grid, product(CONTINUA, GRID)),
-        "fitted_laws": table(fitted, _fitted, product(FITTED, FITTED_INCIDENCES)),
-        "superball": table(PATH, _bounce, [(row,) for row in range(BOUNCES + 2)]),
         "tangential_restitution": table(
             ["model", "nu", *turned], _at_restitution, product(MODELS, NU, E)
         ),
@@ -185,50 +171,6 @@ def _on_grid(model, x):
     found = extrapolated(model, ZETA2, GRID_E, x)
     numbers = found.velocity, found.peak_friction, found.work
     return [model, GRID_E, x, *(digits(number, 6) for number in numbers)]
-
-
-def _fitted(pair, x):
-    model, nu, e = FITTED[pair]
-    return [pair, "continuum", x, digits(extrapolated(model, like(nu), e, x).velocity, 6)]
-
-
-def _bounce(row):
-    places = (6, 9, 6, 9, 4)
-    row = ball_path(*[0.0] * BOUNCES)[row]
-    return [digits(number, n) for number, n in zip(row, places, strict=True)]
-
-
-@functools.cache
-def ball_path(*errors):
-    """Path of the ball that is thrown under a table: before, after each impact, and at the end.
-
-    Without gravity. On the floor the point of contact moves with v - R spin, on the underside of
-    the table with v + R spin, spin positive where the ball turns as if it rolled on the floor.
-    `errors`, in mu v2(0), are added to the velocity of contact after each impact, to see how errors
-    add up. Rows are place and height [m], velocity along and up [m/s], spin [rad/s].
-    """
-    radius, mu, e = (THROW[key] for key in ("radius", "friction", "restitution"))
-    along, up = THROW["velocity"]
-    reach = THROW["gap"] - 2 * radius
-    height, spin, place = 0.0, 0.0, 0.0
-    rows = [(-reach / 2 / abs(up) * along, reach / 2, along, up, spin)]
-    for bounce, error in enumerate(errors):
-        side = -1 if bounce % 2 == 0 else 1  # of the contact: below or above the centre
-        contact = along + side * radius * spin
-        x = contact / (mu * abs(up))
-        w = extrapolated("continuum.viscous", RUBBER, e, abs(x)).velocity
-        change = contact - mu * abs(up) * (np.sign(x) * w + error)
-        # Friction's impulse over the mass; it turns the ball by 5/2 of it over the radius.
-        impulse = change / BETA
-        along -= impulse
-        spin -= side * impulse * 5 / 2 / radius
-        up *= -e
-        rows.append((place, height, along, up, spin))
-        share = 0.5 if bounce == len(errors) - 1 else 1.0
-        place += along * share * reach / abs(up)
-        height += np.sign(up) * share * reach
-    rows.append((place, height, along, up, spin))
-    return [(place, radius + height, *rest) for place, height, *rest in rows]
 
 
 def _shot(model, angle):

@@ -3,6 +3,7 @@
 import contextlib
 from unittest import mock
 
+from stronge1994.names import home
 from stronge1994.settings import figures
 
 GOOD = """\
@@ -28,14 +29,15 @@ CURVES = "def curves(friction, points, nodes, samples=3): ...\n"
 def folder_with(folder, old="", new="", without="", name="fig10"):
     """Figures are those of a folder, with one, after a change of what it states."""
     assert old in GOOD
-    (folder / name).mkdir()
+    own = folder / home(name) / name
+    own.mkdir(parents=True)
     stated = GOOD.replace(old, new, 1)
     for file, text in (("figure.yaml", stated), ("curves.py", CURVES), ("drawing.py", "")):
         if file != without:
-            (folder / name / file).write_text(text)
+            (own / file).write_text(text)
     figures.stated.cache_clear()
     try:
-        with mock.patch.object(figures, "FOLDER", folder):
+        with mock.patch.object(figures, "PACKAGE", folder):
             yield
     finally:
         figures.stated.cache_clear()
@@ -43,7 +45,8 @@ def folder_with(folder, old="", new="", without="", name="fig10"):
 
 def test_a_good_folder_is_read_and_bytecode_is_none(tmp_path):
     with folder_with(tmp_path):
-        for path in (tmp_path, tmp_path / "fig10", tmp_path / "gone"):
+        studies = tmp_path / "studies"
+        for path in (studies, studies / "fig10", studies / "gone"):
             (path / "__pycache__").mkdir(parents=True)
             (path / "__pycache__/a.pyc").touch()
         assert list(figures.stated()) == ["fig10"]

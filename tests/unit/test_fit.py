@@ -35,10 +35,10 @@ def measure():
 
 
 def about(pair):
-    """Poisson's ratio, restitution and loss of a pair of the figure, or of an extreme one."""
+    """Poisson's ratio, restitution and loss of a pair of data/lammps, or of an extreme one."""
     extremes = {"lossy": (0.5, 0.5, "plastic"), "elastic": (0.0, 1.0, "viscous")}
     extremes |= {"damped": (0.5, 0.6, "viscous")}
-    return extremes.get(pair) or tuple(measure().settings()["pairs"][pair].values())
+    return extremes.get(pair) or measure().PAIRS[pair]
 
 
 @functools.cache
@@ -46,8 +46,7 @@ def found(law, pair):
     """A fit of a pair."""
     nu, e, loss = about(pair)
     zeta2 = float(bodies.stiffness_ratio(bodies.Material(1.0, nu)))
-    end = measure().settings()["incidence_max"]
-    return fit.fit(law, 3.5, zeta2, e, loss=loss, incidence_max=end)
+    return fit.fit(law, 3.5, zeta2, e, loss=loss, incidence_max=measure().INCIDENCE_MAX)
 
 
 @pytest.mark.parametrize(
@@ -328,14 +327,25 @@ def test_the_stated_error_holds_wherever_in_a_step_contact_begins(law, pair):
     assert w - one.continuum[place] == pytest.approx(off[row, place], abs=1e-3)
 
 
+def stored_rebounds():
+    """Rows of `rebound.csv`: pair, law, variant, incidence, velocity."""
+    with open(ROOT / "data/lammps/rebound.csv", newline="") as file:
+        return list(csv.reader(file))[1:]
+
+
+def test_velocities_of_lammps_itself_are_those_of_the_fit():
+    """With its usual values (`before`) and with those of the fit (`after`), to 3e-4 mu v2(0)."""
+    for pair, law, variant, x, w in stored_rebounds():
+        one = found(law, pair)
+        foreseen = np.interp(float(x), one.incidence, getattr(one, variant))
+        assert foreseen == pytest.approx(float(w), abs=3e-4)
+
+
 @needs_lammps
 def test_lammps_answers_so_again():
-    with open(ROOT / "data/lammps/rebound.csv", newline="") as file:
-        rows = list(csv.reader(file))[1:]
-    for stored, now in zip(rows, measure().rows(**measure().settings()), strict=True):
+    for stored, now in zip(stored_rebounds(), measure().rows(), strict=True):
         assert stored[:4] == now[:4] and float(stored[4]) == pytest.approx(float(now[4]), abs=5e-4)
-    measured = measure().overlap_rows(**measure().settings())
-    for stored, now in zip(stored_overlaps().items(), measured, strict=True):
+    for stored, now in zip(stored_overlaps().items(), measure().overlap_rows(), strict=True):
         size, *costs = map(float, now[3:])
         assert stored[0] == (*now[:3], size) and stored[1] == pytest.approx(costs, abs=1e-3)
 

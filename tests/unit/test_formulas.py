@@ -31,7 +31,7 @@ def test_a_unit_that_readers_see_is_that_of_the_table():
 
 def test_every_formula_can_be_set():
     """And what is left beside it has no stray `$` or command."""
-    files = [*(ROOT / "data").glob("*/*.yaml"), *figures.FOLDER.glob("*/figure.yaml")]
+    files = [*(ROOT / "data").glob("*/*.yaml"), *figures.PACKAGE.glob("*/*/figure.yaml")]
     assert len(files) > 30
     contents = [yaml.safe_load(path.read_text(encoding="utf-8")) for path in files]
     for text in texts([contents, [check.__doc__ for check in ledger.checks().values()]]):

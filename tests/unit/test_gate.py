@@ -2,7 +2,7 @@
 
 import pytest
 
-from stronge1994 import gate, tables, verdict_table
+from stronge1994 import accepted, gate, verdict_table
 from stronge1994.ledger import outcome
 
 VERDICT = {
@@ -29,92 +29,67 @@ ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {"entry": "eq-25", "verdict": "wron
 )
 def test_a_row_that_fails_or_is_missing_is_a_fault(changes, fault):
     verdict, entry = VERDICT | changes[0], ENTRY | changes[1]
-    found = gate.faults([verdict], [entry], ["fig6-rebound"], ["eq-25"])
+    found = gate.faults([verdict], [entry], ["fig6-rebound"], ["eq-25"], [])
     assert len(found) == bool(fault) and all(words.startswith(fault) for words in found)
 
 
-@pytest.fixture
-def words(tmp_path, monkeypatch):
-    """Function: the summary of a run that judges two figures and the ledger, or a part of it."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "results").mkdir()
-    tables.write_rows(gate.LEDGER, [ENTRY], outcome.COLUMNS)
-
-    def told(
-        verdict="agrees", judged=2, failed=None, passed=(), config=(), whole=True, made=(), **cells
-    ):
-        cells |= {"verdict": verdict}
-        rows = [VERDICT | cells | {"comparison": f"row-{i}"} for i in range(10)]
-        for i in range(2):
-            tables.write_rows(f"{i}.csv", rows[5 * i :][:5], verdict_table.COLUMNS)
-        names, paths = [row["comparison"] for row in rows], [f"{i}.csv" for i in range(judged)]
-        logs, stopped = {job: f"{job}.log" for job in failed or ()}, failed is not None
-        entries = ["eq-25"] if whole else []
-        rows = names[: 5 * judged], entries, {"fig6": "rebound"}
-        return gate.summary(paths, *rows, logs, passed, stopped, config, made)
-
-    return told
+def test_an_accepted_row_that_is_gone_is_told_by_its_figure_and_by_a_whole_run():
+    known = [{**row, "verdict": "agrees", "why": ""} for row in accepted.of_run([VERDICT], [])]
+    known += [row | {"name": "fig7-other"} for row in known] + accepted.of_run([], [ENTRY])
+    there = [VERDICT | {"comparison": "fig6-new"}], ["fig6-new"]
+    told = gate.faults(there[0], [], there[1], [], known)
+    assert told == ["accepted, but no longer compared: fig6-rebound"]
+    assert len(gate.faults(there[0], [ENTRY], there[1], ["eq-25"], known)) == 2
 
 
-def test_a_passed_run_says_where_to_look_and_what_next(words):
-    said = words(passed=["all"])
+def told(wrong=(), ledger=(ENTRY,), figures=("fig6", "fig7"), **cells):
+    """What is said of a run of ten rows, of the ledger or not."""
+    rows = [VERDICT | cells | {"comparison": f"row-{i}"} for i in range(10)]
+    rows = [row | {"figure": figures[i % len(figures)]} for i, row in enumerate(rows)]
+    return gate.summary(rows, ledger, wrong, {"fig6": "rebound"})
+
+
+def test_a_passed_run_says_where_to_look_and_what_next():
+    said = told()
     assert (
-        "\n agrees       A: b, 50 points, rms 0.1 N\n" in said
+        "\n agrees       A: b, 25 points, rms 0.1 N\n" in said
         and "sentences of the paper: 1 wrong; 0 no" in said
     )
-    assert "PASSED: nothing has changed, 11 checks hold.\nPrinted curves: not compared (w" in said
-    assert "one of 0 known differences leaves its bounds, or if one of 1\nverdicts" in said
+    assert "PASSED: every result is as accepted, known differences included; 11 checks." in said
+    assert "\nPrinted curves: not compared (w" in said
     for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
         assert path in said
-    said = words(passed=["paper"], judged=1, whole=False)
-    assert "row-4" in said and "No comparison fails" in said and "PASSED" not in said
 
 
-def test_printed_curves_are_counted_and_fail_no_run(words):
-    """A print that follows a misprint has no bounds, one of another incidence is for no run."""
-    said = words("differs", passed=["all"], group="printed figure", curve="lumped")
-    assert "\nPrinted curves: 10 of 10 compared.\n" in said and "one of 0 known" in said
-    said = words(
-        "not compared", passed=["all"], group="printed figure", curve="lumped", why="other settings"
-    )
-    assert "PASSED: nothing has changed, 1 checks hold." in said  # the ledger's
-    assert "Printed curves: not compared" in said
+@pytest.mark.parametrize("figures", [("fig6",), ("fig6", "fig7")])
+def test_a_part_of_a_run_names_its_rows_and_is_not_the_whole(figures):
+    said = told(ledger=(), figures=figures)
+    assert ("row-4" in said) == (len(figures) == 1) and "PASSED" not in said
+    assert "Every result is as accepted." in said and "The verdict of all: " in said
 
 
-def test_a_failed_run_names_its_rows_last_and_repeats_the_config(words):
-    said = words("FAILS", config=["a=1", "figures={fig6: {restitution: [0, 1]}}"])
+def test_printed_curves_are_counted_and_fail_no_run():
+    cells = {"group": "printed figure", "curve": "lumped"}
+    assert "\nPrinted curves: 10 of 10 compared.\n" in told(verdict="differs", **cells)
+    said = told(verdict="not compared", why="other settings", **cells)
+    assert "included; 1 checks." in said and "Printed curves: not compared" in said  # the ledger's
+
+
+def test_a_failed_run_names_its_rows_last_and_how_to_accept_them():
+    said = told([f"changed: row-{i}: size 1 -> 2" for i in range(10)], verdict="differs")
     assert "PASSED" not in said and "Play" not in said
-    assert "figures --config a=1 'figures={fig6: {restitution: [0, 1]}}'" in said
-    last = said.strip().splitlines()[-gate.MOST_FAULTS - 2 :]
-    assert last[0] == "FAILED. Reasons: 10" and last[1].startswith("FAILS: row-0: rms 0.1")
-    assert last[-1].startswith("  and 2 more: results/")
+    last = said.strip().splitlines()[-gate.MOST_FAULTS - 4 :]
+    assert last[0] == "FAILED. Reasons: 10" and last[1] == "changed: row-0: size 1 -> 2"
+    assert last[-3].startswith("  and 2 more: results/") and last[-1].endswith("accept")
+    said = told(["FAILS: row-0: rms 0.1"], verdict="FAILS")  # which nobody can accept
+    assert said.endswith("FAILED. Reasons: 1\nFAILS: row-0: rms 0.1")
 
 
-def test_a_run_with_other_settings_is_not_judged_and_says_how_to_draw(words):
+def test_a_run_with_other_settings_is_not_judged_and_says_how_to_draw():
     """It accuses nobody: the reference is for other settings."""
     note = "the reference is for mu 0.5, this run has 0.4"
-    cells = {"why": "other settings", "note": note}
-    said = words("not compared", failed=[], config=["mu=0.4"], **cells)
+    said = told(verdict="not compared", why="other settings", note=note)
     last = " ".join(said.split("NOT JUDGED: ")[1].split())
     assert last.startswith("the figures are drawn, but 10 comparisons cannot be made with these ")
-    assert f"({note}); to draw" in last and last.endswith("2 figures --config mu=0.4")
+    assert f"({note}). To draw" in last and last.endswith("snakemake --cores 2 figures")
     assert "FAIL" not in said and "PASSED" not in said
-    said = words("not compared", failed=["draw fig6"], **cells)  # not all is drawn
-    assert "NOT JUDGED" not in said and "failed: draw fig6" in said and "is kept" in said
-
-
-def test_a_run_that_judges_nothing_says_what_it_made(words):
-    asked = {"judged": 0, "whole": False}
-    assert words(**asked, made=["results/site", "b.zip"]) == "\nMade: results/site, b.zip\n"
-    assert words(**asked) == "\nNot judged. Pictures and pages: figures/\n"
-    assert "Made: " not in words(**asked, made=["b.zip"], failed=["curves fig9"])
-
-
-def test_a_run_that_stopped_names_its_jobs_and_what_was_judged(words):
-    said = words(judged=1, failed=["curves fig9"], passed=["fig6"], whole=False)
-    assert "failed: curves fig9 (log: curves fig9.log)" in said and "row-4" in said
-    assert "No comparison fails" not in said
-    nothing = words(judged=0, failed=[], whole=False)
-    assert "row-" not in nothing
-    for told in (said, nothing):
-        assert "PASSED" not in told and "what was finished is kept" in " ".join(told.split())

@@ -1,6 +1,7 @@
 """What may stand in data/ is read as it is meant; tests/refusals has what is refused."""
 
 import contextlib
+import shutil
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from stronge1994 import reference_data
 from stronge1994.judging import comparisons
 from stronge1994.reference_data.calibration import Calibration
 from stronge1994.settings import config as configuration
-from tests.workflow.project import ROOT, config, head, schema, sources
+from tests.workflow.project import ROOT, config, head, sources
 
 AXES = {
     "x": {"column": "incidence", "unit": "1", "sigma": 0.02, "range": [0, 20]},
@@ -56,7 +57,7 @@ def test_a_file_with_a_head_fills_an_awaited_series(mu, end, tmp_path):
     table = f"incidence,velocity [{mu}v2(0)],\n1, 0.5,\n\n"
     file = folder / "rubber_sphere.csv"
     file.write_text((said.replace("marks\n", 'marks",,\n') + table).replace("\n", end), newline="")
-    series = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
+    series = reference_data.load(folder)["series"]["rubber_sphere"]
     by = "a test, with made-up points, 2020-02-29, from Fig. 5, p. 444 of my copy: a scan, "
     assert series["digitised_by"] == f"{by}your_copy.html, 6 marks"
     assert (series["kind"], series["points"], series["sigma_values"]) == ("digitised", 1, 9)
@@ -70,10 +71,10 @@ def test_a_file_with_a_head_fills_an_awaited_series(mu, end, tmp_path):
     assert series.get("overlay") is None
     picture = folder / "rubber_sphere.png"
     picture.write_bytes(b"\x89PNG\r\n")
-    found = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
+    found = reference_data.load(folder)["series"]["rubber_sphere"]
     assert found["overlay"] == str(picture)
     file.unlink()
-    awaited = reference_data.load(folder, schema("source"))["series"]["rubber_sphere"]
+    awaited = reference_data.load(folder)["series"]["rubber_sphere"]
     assert (awaited["kind"], awaited["path"]) == ("awaited", None)
 
 
@@ -89,7 +90,46 @@ def test_a_point_of_a_reading_may_lie_as_far_outside_the_range_as_a_map_may_be_o
     (folder / "rubber_sphere.csv").write_text(f"{head()}incidence,velocity\n1,{y}\n")
     refused = contextlib.nullcontext() if admitted else pytest.raises(reference_data.SourceError)
     with refused:
-        reference_data.load(folder, schema("source"))
+        reference_data.load(folder)
+
+
+def test_all_faults_of_all_sources_are_told_at_once(tmp_path):
+    """Of source.yaml, a line for each field; of tables, a line for each file."""
+    shutil.copytree(ROOT / "data/johnson1983", tmp_path / "a")
+    stated = (tmp_path / "a/source.yaml").read_text()
+    wrong = stated.replace("rights:", "right:").replace("range: [0, 10]", "range: [10, 0]")
+    (tmp_path / "a/source.yaml").write_text(wrong)
+    shutil.copytree(ROOT / "data/kharaz2001", tmp_path / "b")
+    for name in ("spin", "tangential_restitution"):
+        (tmp_path / f"b/{name}.csv").write_text("angle\n1\n")
+    (tmp_path / "b/notes.txt").touch()
+    with pytest.raises(reference_data.SourceError) as refusal:
+        reference_data.load_all(tmp_path)
+    x = "series.rubber_sphere.x"
+    told = str(refusal.value).replace(f"{tmp_path}/", "").splitlines()
+    assert [line.partition(";")[0] for line in told] == [
+        "a/source.yaml: rights: missing",
+        f"a/source.yaml: {x}.range = [10, 0]: the first number must be the smaller",
+        "a/source.yaml: right: no such key",
+        "b/tangential_restitution.csv, line 1: column 'digitiser' is missing",
+        "b/spin.csv, line 1: column 'digitiser' is missing",
+        "b/notes.txt: no series of that name",
+    ]
+
+
+def test_files_that_desktops_and_editors_leave_are_ignored(tmp_path):
+    shutil.copytree(ROOT / "data/kharaz2001", tmp_path / "kharaz2001")
+    for name in (
+        "desktop.ini",
+        "Thumbs.db",
+        "spin.csv~",
+        "~$spin.xlsx",
+        ".DS_Store",
+        "spin.csv.bak",
+    ):
+        (tmp_path / "kharaz2001" / name).touch()
+        (tmp_path / name).touch()
+    assert list(reference_data.load_all(tmp_path)) == ["kharaz2001"]
 
 
 def test_a_point_may_lie_three_sigmas_outside_the_range(tmp_path):
@@ -113,9 +153,10 @@ def test_a_merge_may_be_overridden_and_merged_again(tmp_path):
     }  # fmt: skip
 
 
-def test_a_sigma_may_be_a_hundredth_of_the_range_and_a_measured_one_larger():
-    for sigma, kind in ((0.1, "digitised"), (5, "measured")):
-        reference_data._refuse_axis("x", reference_data.Axis("x", "1", sigma, (0, 10)), kind)
+def test_a_sigma_may_be_a_hundredth_of_the_range():
+    """A measured one may be larger: see the marble of tests/refusals."""
+    axis = reference_data.Axis("x", "1", 0.1, (0, 10))
+    assert not list(axis.refusals(0.1)) and list(axis.refusals(0.101))
 
 
 SLIDING = "chung_ooi2011/rebound"

@@ -7,7 +7,7 @@ import pytest
 
 from planarimpact import lumped
 from stronge1994 import tables
-from stronge1994.figures.stability import curves as stability
+from stronge1994.studies.stability import curves as stability
 
 X = [0.0, 0.5, 2.0, 8.0]
 

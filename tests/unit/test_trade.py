@@ -8,8 +8,8 @@ import pytest
 
 from planarimpact import continuum, models
 from stronge1994 import tables
-from stronge1994.figures.trade import curves as trade
 from stronge1994.pages import which_model
+from stronge1994.studies.trade import curves as trade
 
 TRIED = "steps", "tolerance"
 STEPS = np.linspace(-0.01, 0.01, 41)  # of incidence

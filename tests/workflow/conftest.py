@@ -32,7 +32,7 @@ def first_run(tmp_path_factory):
     """The project after a full run, and what that run printed. Do not change it.
 
     Where this checkout has results, the run begins with a copy of them and makes anew only what
-    they lack. Processes of pytest-xdist share it: the first one to get here runs it.
+    they lack, and the gate. Processes of pytest-xdist share it: the first one to get here runs it.
     """
     base = tmp_path_factory.getbasetemp()
     base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
@@ -44,7 +44,9 @@ def first_run(tmp_path_factory):
         while not words.exists() and time.monotonic() < deadline:
             time.sleep(0.2)
     else:
-        found = copy_of(ROOT, folder, PARTS + LEFT).run()
+        begun = copy_of(ROOT, folder, PARTS + LEFT)
+        (begun / "results/gate.txt").unlink(missing_ok=True)
+        found = begun.run()
         partial = base / "finished.partial"
         partial.write_text(json.dumps([found.returncode, found.stdout]))
         partial.replace(words)

@@ -14,7 +14,7 @@ from stronge1994.settings import config as configuration
 
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
-PARTS += ["LICENSE", "CITATION.cff"]
+PARTS += ["LICENSE", "CITATION.cff", "environment.txt"]
 LEFT = ["results", "figures", ".snakemake"]  # by a run
 TIMEOUT = 3600  # s, against a run that hangs, not against a busy machine
 
@@ -22,13 +22,7 @@ TIMEOUT = 3600  # s, against a run that hangs, not against a busy machine
 @functools.cache
 def sources():
     """All sources of data/. Do not change them."""
-    return reference_data.load_all(ROOT / "data", schema("source"))
-
-
-@functools.cache
-def schema(name):
-    """A schema of the workflow."""
-    return reference_data.load_yaml(ROOT / f"workflow/schemas/{name}.schema.yaml")
+    return reference_data.load_all(ROOT / "data")
 
 
 @functools.cache
@@ -40,7 +34,8 @@ def config():
 @functools.cache
 def ledger():
     """Entries of the ledger."""
-    return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema("ledger"))
+    schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
+    return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
 
 
 @functools.cache
@@ -48,7 +43,7 @@ def awaited():
     """Names of the comparisons with a series of which there are no points yet."""
 
     def waits(full):
-        return configuration.reference(sources(), full).get("kind") == "awaited"
+        return reference_data.reference(sources(), full).get("kind") == "awaited"
 
     stated = config()["comparisons"].items()
     return [name for name, entry in stated if "reference" in entry and waits(entry["reference"])]

@@ -1,8 +1,5 @@
 """Figures beyond the paper: what no row of the run judges, in the curves of a finished run."""
 
-import runpy
-from types import SimpleNamespace
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -10,15 +7,14 @@ import pytest
 from planarimpact import bodies, lumped, models
 from planarimpact.bodies import Material
 from stronge1994 import reference_data, tables
-from stronge1994.figures.inelastic import curves as inelastic
-from stronge1994.figures.rubber_sphere import curves as rubber
-from stronge1994.figures.yielding import curves as yielding
 from stronge1994.names import PAPER
+from stronge1994.studies.inelastic import curves as inelastic
+from stronge1994.studies.rubber_sphere import curves as rubber
 from tests.reference_solutions import cross_tables, table_files
 from tests.workflow.project import ROOT
 
 BETA_0, MAX = inelastic.BETA_0, "max_velocity [mu v2(0)]"
-ELEMENTS, CROSS = ROOT / "data/finite_elements", ROOT / "data/cross2014"
+CROSS = ROOT / "data/cross2014"
 
 
 @pytest.fixture(scope="module")
@@ -105,32 +101,6 @@ def test_both_halves_of_the_measurement_add_up(solved):
     velocity, spin = (tables.select(curves, variant=half)[rubber.E_T] for half in rubber.ALONE)
     e_t = pd.read_csv(CROSS / "impacts.csv")[rubber.E_T]
     np.testing.assert_allclose(2 / 7 * velocity + 5 / 7 * spin, e_t, rtol=0, atol=0.03)
-
-
-# Spheres that yield
-
-
-@pytest.fixture(scope="module")
-def make():
-    return SimpleNamespace(**runpy.run_path(ELEMENTS / "make.py"))
-
-
-def test_a_pushed_contact_that_never_yields_stays_elastic():
-    approach, share = yielding.share_of_elastic(1.0)
-    np.testing.assert_allclose(share, 1.0, rtol=1e-9)
-    assert approach[-1] == 1 and np.all(np.diff(approach) > 0)
-
-
-def test_series_and_sigma_follow_from_the_runs_and_every_run_is_planned(make, inventory):
-    runs = pd.read_csv(make.RUNS)
-    for name, table in make.series(runs).items():
-        written = (ELEMENTS / f"{name}.csv").read_text(encoding="utf-8")
-        assert table.to_csv(index=False, lineterminator="\n") == written
-    found, stated = make.uncertainty(runs), inventory["finite_elements"]["series"]["spheres"]
-    both = np.hypot(*(found[name] for name in found if "root mean square" in name))
-    assert both < stated["y"]["sigma"] < 2 * both
-    planned = {tuple(case[name] for name in make.KEY) for case in make.plan()}
-    assert set(runs[make.KEY].itertuples(index=False, name=None)) == planned
 
 
 # Error against time

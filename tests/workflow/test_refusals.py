@@ -3,7 +3,6 @@
 What a start of Snakemake checks is checked in tests/refusals; a few whole starts show that it does.
 """
 
-import os
 import re
 
 from tests.workflow.project import ROOT
@@ -35,19 +34,6 @@ def test_a_refused_start_does_nothing(fresh):
         result = fresh.run(*arguments)
         assert result.returncode != 0 and re.search(words, result.stdout), result.stdout
         assert "Traceback" not in result.stdout and not (fresh / "results").exists()
-
-
-def test_a_date_in_the_future_stops_a_run_before_it_does_anything(fresh):
-    """A file that a run has made as well as one of data."""
-    for path in ("data/maw1976/source.yaml", "results/curves/fig3.csv"):
-        (fresh / path).parent.mkdir(parents=True, exist_ok=True)
-        (fresh / path).touch()
-        os.utime(fresh / path, (4e9, 4e9))
-        result = fresh.run("fig3")
-        assert result.returncode != 0 and "Traceback" not in result.stdout
-        assert re.search(rf"\n{path}: its date .* touch {path}\n", result.stdout), result.stdout
-        assert (fresh / path).exists() and not (fresh / "results/logs").exists()
-        (fresh / path).touch()
 
 
 def test_errors_of_snakemake_itself_are_explained(fresh):

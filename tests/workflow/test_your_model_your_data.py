@@ -12,7 +12,7 @@ from stronge1994.settings.figures import expanded
 from tests.workflow.project import ROOT
 
 TEXT = (ROOT / "workflow/your_model_your_data.md").read_text(encoding="utf-8")
-FOLDER = "src/stronge1994/figures/marble"
+FOLDER = "src/stronge1994/studies/marble"
 NOT_RUN = "<!-- not run"
 
 
@@ -70,8 +70,7 @@ def test_a_stranger_adds_a_model_and_a_series_and_sees_them_judged(typed):
     assert "    each: {model: *models}\n" in text
     (folder / "figure.yaml").write_text(text.replace("    each: {model: *models}\n", known))
     ((name, entry),) = reference_data.load_yaml(folder / "figure.yaml")["comparisons"].items()
-    schema = reference_data.load_yaml(project / "workflow/schemas/source.schema.yaml")
-    source = reference_data.load(project / "data/marble", schema)
+    source = reference_data.load(project / "data/marble")
     references = {"marble/rebound": source["series"]["rebound"]}
     table = project / "results/curves/marble.csv"
     rows = judging.compare("marble", table, dict(expanded(name, entry)), references, 0.001, {})

@@ -1,11 +1,16 @@
+# Where `snakemake --report` shows a picture.
+IN_REPORT = {"category": "Figures", "labels": {"figure": "{figure}"}, "caption": "../report/figure.rst"}
+
+
 rule draw:
     """Draw one figure from its curves; never solves."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/draw.py", *DRAWING],
+        own=of_folder(without="curves.py"),
         curves="results/curves/{figure}.csv",
         series=of_figure("series"),
     output:
-        svg="figures/{figure}.svg",
+        svg=report("figures/{figure}.svg", **IN_REPORT),
         png="figures/{figure}.png",
     log:
         "results/logs/draw_{figure}.log",
@@ -16,9 +21,6 @@ rule draw:
         "../envs/planarimpact.yaml"
     params:
         settings=of_figure("drawing"),
-        content=digest(
-            "workflow/scripts/draw.py", "src/stronge1994/figures/{figure}/drawing.py", of_figure("series")
-        ),
     script:
         "../scripts/draw.py"
 
@@ -26,7 +28,7 @@ rule draw:
 use rule draw as draw_with_slide with:
     # Also one panel of the figure for a projector, on a light and on a dark ground.
     output:
-        svg="figures/{figure}.svg",
+        svg=report("figures/{figure}.svg", **IN_REPORT),
         png="figures/{figure}.png",
         light="figures/slides/{figure}_light.png",
         dark="figures/slides/{figure}_dark.png",

@@ -1,7 +1,7 @@
 rule judge:
     """Compare a figure's curves or a scene with reference data. A row that fails is no error here."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/judge.py", *JUDGING],
         table=of_judged("table"),
         series=of_judged("series"),
     output:
@@ -14,6 +14,94 @@ rule judge:
         "../envs/planarimpact.yaml"
     params:
         settings=of_judged("settings"),
-        content=digest("workflow/scripts/judge.py", of_judged("series")),
     script:
         "../scripts/judge.py"
+
+
+rule verdicts:
+    """All rows of the comparisons as one table. Never fails."""
+    input:
+        code=["workflow/scripts/gather.py", *JUDGING],
+        tables=expand(rules.judge.output.verdicts, judged=JUDGED),
+    output:
+        report("results/verdicts.csv", category="Tables", caption="../report/verdicts.rst"),
+    log:
+        "results/logs/verdicts.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/gather.py"
+
+
+rule ledger:
+    """Check every entry of the paper's ledger against the paper's model, solved to rounding."""
+    input:
+        code=["workflow/scripts/check_ledger.py", *SOLVING, *JUDGING],
+        entries=LEDGER,
+        facts="data/stronge1994/source.yaml",  # to which entries refer
+        schema="workflow/schemas/ledger.schema.yaml",
+    output:
+        table=report("results/ledger.csv", category="Tables", caption="../report/ledger.rst"),
+        measures="results/in_nature.csv",
+    log:
+        "results/logs/ledger.log",
+    priority: 1  # as it is long
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/check_ledger.py"
+
+
+rule accept:
+    """Write what a run has found to data/accepted/verdicts.csv: look at git diff, and then run again.
+
+    It is no output, as the gate reads it. What FAILS, or is of other settings, is refused.
+    """
+    input:
+        code=["workflow/scripts/accept.py", *JUDGING],
+        verdicts=rules.verdicts.output,
+        ledger=rules.ledger.output.table,
+    log:
+        "results/logs/accept.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/accept.py"
+
+
+rule gate:
+    """Pass, or fail and say which rows are not as accepted. It waits for all that a run makes."""
+    input:
+        code=["workflow/scripts/gate.py", *JUDGING],
+        verdicts=rules.verdicts.output,
+        ledger=rules.ledger.output.table,
+        accepted=ACCEPTED,
+        made=EVERYTHING,
+    output:
+        "results/gate.txt",
+    log:
+        "results/logs/gate.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        rows=rows_of(JUDGED),
+        entries=ENTRIES,
+        shows=lambda _: SHOWS,
+    script:
+        "../scripts/gate.py"
+
+
+use rule gate as gate_of_target with:
+    # The same for a part of the run, by its own rows. Inputs are replaced, other params are kept.
+    input:
+        code=["workflow/scripts/gate.py", *JUDGING],
+        verdicts=lambda wildcards: expand(rules.judge.output.verdicts, judged=TARGETS[wildcards.target]),
+        accepted=ACCEPTED,
+        made=lambda wildcards: made(TARGETS[wildcards.target]),
+    output:
+        "results/gates/{target}.txt",
+    log:
+        "results/logs/gate_{target}.log",
+    params:
+        rows=lambda wildcards: rows_of(TARGETS[wildcards.target]),
+        entries=[],

@@ -1,40 +1,37 @@
 # Pages show what the tables of a run say. Each includes these beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html", "workflow/report/page.css"]
-# Pictures of prints under our curves, saved beside what was read there.
-OVERLAYS = {
-    f"{source}/{name}": series["overlay"]
+SERIES = {
+    f"{source}/{name}": series
     for source, entry in SOURCES.items()
     for name, series in entry.get("series", {}).items()
-    if series.get("overlay")
 }
-# Series of which the note states numbers. It needs them, fig5, inelastic, rubber_sphere and yielding.
-STATED = {
-    "pairs": SOURCES["cornell1999"]["series"]["pairs"],
-    "runs": SOURCES["finite_elements"]["series"]["spheres"],
-}
+# Pictures of prints under our curves, saved beside what was read there.
+OVERLAYS = {name: series["overlay"] for name, series in SERIES.items() if series.get("overlay")}
+# Series of which the note states numbers. It needs them, fig5, inelastic and rubber_sphere.
+STATED = {"pairs": SOURCES["cornell1999"]["series"]["pairs"]}
 
 
 rule report:
     """The run as pages: the report, its sources and settings, the note, the ledger of the paper."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/write_report.py", *WRITING],
         ledger="results/ledger.csv",
+        accepted=ACCEPTED,
         in_nature="results/in_nature.csv",
-        verdicts=expand("results/verdicts/{judged}.csv", judged=JUDGED),
+        verdicts="results/verdicts.csv",
         residuals=expand("results/residuals/{judged}.csv", judged=FIGURES),
         curves=expand("results/curves/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
         stated=[series["path"] for series in STATED.values()],
         overlays=list(OVERLAYS.values()),
-        parts=sorted(map(str, Path("workflow/report").glob("*.*"))),
+        parts=files("workflow/report/*.*"),
     output:
         report="figures/report.html",
         sources="figures/sources.html",
         note="figures/note.html",
         ledger="figures/ledger.html",
         tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
-        verdicts="results/verdicts.csv",
-        which_model="results/which_model.csv",
+        which_model=report("results/which_model.csv", category="Tables", caption="../report/which_model.rst"),
         numbers="results/key_numbers.csv",
     log:
         "results/logs/report.log",
@@ -55,7 +52,6 @@ rule report:
             "rows": rows_of(JUDGED),
             "entries": ENTRIES,
         },
-        content=digest("workflow/scripts/write_report.py"),
     script:
         "../scripts/write_report.py"
 
@@ -63,7 +59,7 @@ rule report:
 rule lecture:
     """Run one lecture, compare the numbers that its texts state, and write its pages."""
     input:
-        versions="results/versions.json",
+        code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
         numbers="workflow/notebooks/{notebook}.yaml",
         tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/curves/trade.csv"),
@@ -81,9 +77,6 @@ rule lecture:
     priority: 1  # as it is long
     conda:
         "../envs/planarimpact.yaml"
-    params:
-        # Cells import the solver alone, so that a notebook runs where only that is installed.
-        content=digest("workflow/scripts/run_lecture.py", "src/planarimpact"),
     script:
         "../scripts/run_lecture.py"
 
@@ -91,8 +84,8 @@ rule lecture:
 rule explorer:
     """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
-        versions="results/versions.json",
-        sources=sorted(map(str, Path("workflow/explorer").glob("*.*"))),
+        code=["workflow/scripts/write_explorer.py", *SOLVER, *WRITING],
+        sources=files("workflow/explorer/*.*"),
         start="workflow/report/index.html",
         parts=EVERY_PAGE,
     output:
@@ -104,7 +97,6 @@ rule explorer:
         "../envs/planarimpact.yaml"
     params:
         settings=lambda _: settings.of_explorer(config),
-        content=digest("workflow/scripts/write_explorer.py"),
     script:
         "../scripts/write_explorer.py"
 
@@ -112,8 +104,8 @@ rule explorer:
 rule your_copy:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
-        versions="results/versions.json",
-        sources=sorted(map(str, Path("workflow/your_copy").glob("**/*.*"))) + ["workflow/explorer/files.js"],
+        code=["workflow/scripts/write_your_copy.py", *WRITING],
+        sources=files("workflow/your_copy/**/*.*", "workflow/explorer/files.js"),
         curves=expand("results/curves/{figure}.csv", figure=PAPER),
         parts=EVERY_PAGE,
     output:
@@ -124,18 +116,13 @@ rule your_copy:
         "../envs/planarimpact.yaml"
     params:
         figures=PAPER,
-        series=lambda _: {
-            f"{source}/{name}": entry
-            for source, stated in SOURCES.items()
-            for name, entry in stated.get("series", {}).items()
-        },
+        series=lambda _: SERIES,
         allowances=lambda _: {
             entry["reference"]: entry["allowance"]
             for entry in config["comparisons"].values()
             if "allowance" in entry
         },
         significance=lambda _: config["significance"],
-        content=digest("workflow/scripts/write_your_copy.py"),
     script:
         "../scripts/write_your_copy.py"
 
@@ -148,12 +135,18 @@ PAGES = [
 ]
 
 
+# All that `all` makes, but for a folder, whose date would count.
+EVERYTHING = [*made(JUDGED), *(path for path in PAGES if path != rules.report.output.tables)]
+
+
 rule site:
     """All pages for students and readers, in one folder and as a zip file: five minutes of processor time."""
     input:
+        code=["workflow/scripts/write_site.py", *SOLVER, *WRITING],
         made=[
-            *(path for path in PAGES if "answers_" not in path),  # which are for the teacher
-            *made(JUDGED),
+            *(
+                path for path in [*PAGES, *made(JUDGED)] if "answers_" not in path
+            ),  # which are for the teacher
             *expand("results/verdicts/{judged}.csv", judged=JUDGED),
             "results/ledger.csv",
         ],
@@ -167,7 +160,5 @@ rule site:
         "results/logs/site.log",
     conda:
         "../envs/planarimpact.yaml"
-    params:
-        content=digest("workflow/scripts/write_site.py", "src/planarimpact"),
     script:
         "../scripts/write_site.py"

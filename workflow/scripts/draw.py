@@ -8,5 +8,5 @@ from stronge1994 import versions
 from stronge1994.figures.shared import drawing as drawings
 
 given, made = snakemake.input, dict(snakemake.output.items())
-source = versions.source(given.versions)
+source = versions.source()
 drawings.draw(snakemake.wildcards.figure, snakemake.params.settings, given.curves, made, source)

@@ -1,19 +1,22 @@
-"""Fail if a row of the tables fails, or is missing."""
+"""Say what a run has found, and fail if it is not what somebody has accepted."""
 
 import sys
+from pathlib import Path
 
 from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import gate, tables, verdict_table
+from stronge1994 import accepted, gate, tables, verdict_table
+from stronge1994.ledger import outcome
 
-table = snakemake.input.get("ledger")
-ledger = tables.read_rows(table) if table else []
-verdicts = verdict_table.gather(snakemake.input.verdicts)
-faults = gate.faults(verdicts, ledger, snakemake.params.rows, snakemake.params.get("entries", []))
-unmade = gate.unmade(verdicts)
-if faults or unmade:
-    rows = f"{len(faults)} rows of the tables fail or are missing"
-    others = f"{len(unmade)} comparisons cannot be made with these settings"
-    sys.exit(f"{rows}, {others}: the end of the run names them")
+given, asked = snakemake.input, snakemake.params
+verdicts = verdict_table.gather(given.verdicts)
+ledger = tables.read_rows(given.ledger, outcome.COLUMNS) if asked.entries else []
+known = accepted.read(given.accepted)
+faults = gate.faults(verdicts, ledger, asked.rows, asked.entries, known)
+told = gate.summary(verdicts, ledger, faults, asked.shows)
+print(told)
+if faults or gate.unmade(verdicts):
+    sys.exit(1)
+Path(snakemake.output[0]).write_text(told, encoding="utf-8")

@@ -125,11 +125,11 @@ def rebound(
     where yield begins (`planarimpact.normal_impact.yielding`). The constant 0.95 was fixed on
     finite elements of two equal solid spheres with nu = 0.3, mu = 0.1 and e = 0.46, 0.55 and 0.63.
     With mu up to 0.1, nu = 0.3 and 0.45, e from 0.45 to 0.97 finite elements differ from this law
-    by 0.04 mu v2(0) (root mean square), 0.16 at most; at e = 0.39 by 0.12, 0.27 at most. It does
+    by 0.04 mu v2(0) (root mean square), 0.15 at most; at e = 0.39 by 0.11, 0.21 at most. It does
     not hold for mu above 0.2, where friction exceeds the shear strength of the surface (off by up
     to 0.9 at mu = 0.4), for dissimilar bodies (see `bodies.dundurs`; off by up to 0.5 on a rigid
-    plane), for e below 0.4, large strain, or strength that depends on rate. Law and finite elements
-    are in the figure `yielding`.
+    plane), for e below 0.4, large strain, or strength that depends on rate. The finite elements
+    are in data/finite_elements.
 
     The law gives the force, and two pressures that do not agree. Here it is that of Hertz at all
     times.

@@ -1,1 +1,1 @@
-"""The figures, a folder each: figure.yaml states, curves.py solves, drawing.py draws."""
+"""Figs 2 to 9, a folder each: figure.yaml states, curves.py solves, drawing.py draws."""

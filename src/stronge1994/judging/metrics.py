@@ -4,7 +4,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-import pandas as pd
 
 from planarimpact.common.arrays import Array
 from stronge1994 import tables
@@ -67,15 +66,12 @@ class Measured(NamedTuple):
         return int(np.abs(self.sigmas).argmax())
 
     @property
-    def sizes(self) -> dict[str, float]:
-        """Root mean square and largest distance in the unit of the axis, and the signed first one.
+    def sizes(self) -> tuple[float, float]:
+        """Root mean square and largest distance in the unit of the axis.
 
-        Columns of several units have none in common: these are of the one with the `worst`. The
-        difference of a landmark is its value minus the stated one.
+        Columns of several units have none in common: these are of the one with the `worst`.
         """
-        own = self.plain[np.array(self.columns) == self.columns[self.worst]]
-        rms, largest = rms_and_max(own)
-        return {"rms": rms, "max": largest, "difference": -float(self.plain[0])}
+        return rms_and_max(self.plain[np.array(self.columns) == self.columns[self.worst]])
 
 
 def rms_and_max(distances: Array) -> tuple[float, float]:
@@ -91,18 +87,6 @@ def measure(comparison: Comparison, curves: Table) -> Measured:
     if isinstance(reference, Fact):
         return _from_fact(comparison, reference, curves)
     return _LAWS[comparison.metric](comparison, curves)
-
-
-def as_printed(comparison: Comparison, curves: Table) -> Table:
-    """The curve of a comparison with the stretch where the printed equations give another one."""
-    series, other = comparison.reference, comparison.or_printed
-    assert isinstance(series, Series) and other is not None
-    own, printed = (tables.select(curves, **c) for c in (comparison.curve, other.curve))
-    tables.only_curve(own)
-    x, stretch = series.x.name, printed[series.x.name]
-    stretched = printed.assign(**{key: own[key].iloc[0] for key in tables.KEYS})
-    before, after = own[own[x] <= stretch.min()], own[own[x] >= stretch.max()]
-    return pd.concat([before, stretched, after], ignore_index=True)
 
 
 def _from_points(comparison: Comparison, series: Series, curves: Table) -> Measured:
@@ -209,7 +193,7 @@ def _refuse_missing(curves: Table, columns: Iterable[str]) -> None:
 def _from_fact(comparison: Comparison, fact: Fact, curves: Table) -> Measured:
     """A landmark against a stated fact."""
     sought = comparison.landmark
-    assert sought is not None  # as the schema has it
+    assert sought is not None  # as `Comparison` asks
     own = tables.select(curves, **comparison.curve)
     tables.only_curve(own)
     _refuse_missing(own, (sought.x, sought.y))
@@ -258,7 +242,7 @@ def _small(comparison: Comparison, curves: Table) -> Measured:
 
 def _range(comparison: Comparison, curves: Table) -> Measured:
     """Columns that must lie in a range: distances from its middle, in half its width."""
-    assert comparison.range is not None  # as the schema has it
+    assert comparison.range is not None  # as `Comparison` asks
     names, (low, high) = comparison.columns, comparison.range
     first, x, values = _of_law(comparison, curves)
     most = LARGEST_RANGE_RATIO * np.abs(values).max()

@@ -15,8 +15,8 @@ from stronge1994 import tables
 from stronge1994.formulas import plain
 from stronge1994.judging import scales
 from stronge1994.judging.comparisons import Comparison, Metric
-from stronge1994.judging.metrics import Measured, as_printed, measure, rms_and_max
-from stronge1994.judging.verdicts import error_in_words, judge, judge_print
+from stronge1994.judging.metrics import Measured, measure, rms_and_max
+from stronge1994.judging.verdicts import error_in_words, judge
 from stronge1994.reference_data import Fact, Series
 from stronge1994.tables import Table, with_unit
 from stronge1994.verdict_table import COLUMNS, Verdict, Why
@@ -90,30 +90,19 @@ def _row(
     if others := "; ".join(filter(None, (one.other_settings(settings) for one in parts))):
         what = "reference" if reference else "law"
         return cells | none | {"why": Why.SETTINGS, "note": f"the {what} is for {others}"}
-    if known:
-        cells |= {"entry": known.entry, "note": plain(known.note)}
     try:
         measured = _measured(comparison, parts, curves)
         verdict, numbers = _judged(comparison, measured, significance)
-        if comparison.or_printed:
-            printed = measure(comparison, as_printed(comparison, curves))
-            verdict, cells["says"] = judge_print(comparison, verdict, printed, significance)
-            of_model, of_printed = (
-                with_unit(float(f"{one.sizes['rms']:.2g}"), numbers["unit"])
-                for one in (measured, printed)
-            )
-            sizes = f"rms {of_model} from the model, {of_printed} from these equations"
-            cells["note"] = f"{cells['says']}: {sizes}"
     except Exception as error:
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
-    cells |= numbers | {"verdict": verdict}
-    cells["note"] = "; ".join(filter(None, (cells.get("note"), measured.note)))
+    notes = [measured.note]
     if verdict == Verdict.DIFFERS and known:
-        cells |= {"why": known.why, "paper": known.paper}
-    elif verdict == Verdict.DIFFERS and comparison.or_printed:
-        cells |= {"why": Why.KNOWN, "entry": comparison.or_printed.entry}
-    elif verdict == Verdict.FAILS and len(measured.at) > 1:
-        cells["note"] = "; ".join(filter(None, (cells["note"], _place(measured))))
+        cells |= {"why": known.why, "paper": known.paper or "", "entry": known.entry}
+        notes = [plain(known.note), *notes]
+    elif verdict in (Verdict.DIFFERS, Verdict.FAILS):
+        cells |= {"why": Why.UNKNOWN} if verdict == Verdict.DIFFERS else {}
+        notes += [_place(measured)] if len(measured.at) > 1 else []
+    cells |= numbers | {"verdict": verdict, "note": "; ".join(filter(None, notes))}
     of = measured.curves or cells["curve"]
     own = comparison.name, of, measured.quantity, measured.at, measured.sigmas
     return cells | {"residuals": pd.DataFrame(dict(zip(RESIDUALS, own, strict=True)))}
@@ -141,18 +130,17 @@ def _judged(
     """The verdict, and the cells of numbers; sizes are in the unit of the axis."""
     verdict, chi2, error = judge(comparison, measured, significance)
     quantity, _, unit = measured.columns[measured.worst].rstrip("]").partition(" [")
-    sizes, (rms, largest) = measured.sizes, rms_and_max(measured.sigmas)
-    numbers = {"rms": sizes["rms"], "max": sizes["max"], "rms [sigma]": rms, "max [sigma]": largest}
+    sizes = *measured.sizes, *rms_and_max(measured.sigmas)
+    numbers = dict(zip(("rms", "max", "rms [sigma]", "max [sigma]"), sizes, strict=True))
     cells: VerdictRow = {key: f"{number:.3g}" for key, number in numbers.items()}
-    bounds = [
-        f"{low:g} <= {key} <= {with_unit(high, unit)}"
-        for key, (low, high) in comparison.bounds.items()
-    ]
+    cells |= {"size": f"{numbers['rms']:.6g}"}
     cells |= {"points": len(measured.at), "column": quantity, "unit": unit}
     cells |= {"allowed": _allowed(comparison, measured, unit, significance)}
-    cells |= {"bounds": ", ".join(bounds)}
     if isinstance(comparison.reference, Fact):
         cells |= {"found": f"{measured.at[0]:.4g}", "stated": comparison.reference.stated}
+        cells |= {"size": f"{measured.at[0]:.6g}"}
+    elif comparison.reference is None:
+        cells["size"] = ""  # a law has its own limit
     if comparison.metric == Metric.RATIO:
         cells["found"] = f"ratio {measured.at[0]:.3g}"
     if comparison.range:

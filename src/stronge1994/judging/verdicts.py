@@ -30,52 +30,18 @@ class Judged(NamedTuple):
 
 
 def judge(comparison: Comparison, measured: Measured, significance: float) -> Judged:
-    """Verdict on measured distances.
-
-    Published points differ if p is not above `significance`. A known difference fails if there is
-    no difference any more, and if it has left its bounds.
-    """
-    judged = _beside_the_curve(comparison, measured, significance)
-    if comparison.differs:
-        sizes, bounds = measured.sizes, comparison.bounds.items()
-        kept = all(low <= sizes[key] <= high for key, (low, high) in bounds)
-        differs = kept and judged.verdict == Verdict.FAILS
-        return judged._replace(verdict=Verdict.DIFFERS if differs else Verdict.FAILS)
-    if judged.verdict == Verdict.AGREES and comparison.group == Group.SOLVER:
-        return judged._replace(verdict=Verdict.PASSED)
-    return judged
-
-
-def judge_print(
-    comparison: Comparison, verdict: Verdict, of_printed: Measured, significance: float
-) -> tuple[Verdict, str]:
-    """Verdict on a printed curve, and what it follows: the model, the printed equations, none.
-
-    `verdict` is that beside the model.
-    """
-    other = comparison.or_printed
-    assert other is not None
-    follows = _beside_the_curve(comparison, of_printed, significance).verdict != Verdict.FAILS
-    if verdict != Verdict.FAILS:
-        alike = f"it cannot tell the model from {other.equations} as printed"
-        return verdict, alike if follows else f"the print follows the model, not {other.equations}"
-    if follows:
-        return Verdict.DIFFERS, f"the print follows {other.equations} as printed"
-    return verdict, f"the print follows neither {other.equations} as printed nor the model"
-
-
-def _beside_the_curve(comparison: Comparison, measured: Measured, significance: float) -> Judged:
-    """The verdict without what is known of a difference."""
-    reference = comparison.reference
+    """Verdict on measured distances; published points differ if p is not above `significance`."""
+    reference, solver = comparison.reference, comparison.group == Group.SOLVER
     if not (isinstance(reference, Series) and reference.is_published):
-        good = np.abs(measured.sigmas).max() <= 1.0
-        return Judged(Verdict.AGREES if good else Verdict.FAILS)
+        if np.abs(measured.sigmas).max() <= 1.0:
+            return Judged(Verdict.PASSED if solver else Verdict.AGREES)
+        return Judged(Verdict.FAILS if solver else Verdict.DIFFERS)
     shared = measured.shifts, measured.of_sigma, measured.free
     chi2 = chi_squared(measured.sigmas, *shared)
     direction = measured.larger if measured.free is None else measured.wider
     error = smallest_error(direction, *shared, significance=significance)
     if not chi2.p > significance:  # nor if it is nan
-        return Judged(Verdict.FAILS, chi2, error)
+        return Judged(Verdict.DIFFERS, chi2, error)
     if chi2.p > DOUBT * significance and error <= LARGEST_ERROR:
         return Judged(Verdict.AGREES, chi2, error)
     return Judged(Verdict.CANNOT_TELL, chi2, error)

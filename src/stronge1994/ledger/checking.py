@@ -45,14 +45,13 @@ def check(every: Mapping[str, Entry], measured: Measured | None = None) -> list[
 
 def _row(name: str, entry: Entry) -> Row:
     row = dict.fromkeys(outcome.COLUMNS, "")
-    same = set(entry) - {"confirms", "holds", "between", "in_nature"}
+    same = set(entry) - {"confirms", "holds", "in_nature"}
     row |= {key: entry[key] for key in row if key in same}
     row |= {"entry": name, "range": entry.get("holds", "")}
     if "check" not in entry:
         return row
     row["test"] = ledger.docstring(entry["check"])
     row["confirms"] = _criterion(entry["confirms"])
-    row["between"] = " to ".join(f"{bound:g}" for bound in entry.get("between", []))
     try:
         found = ledger.run(entry["check"])
         problem = finding.judge(found, entry)

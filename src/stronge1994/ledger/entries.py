@@ -20,8 +20,7 @@ def load(path: str | Path, schema: Mapping[str, Any]) -> dict[str, Entry]:
 
     Each has its `kind` (equation or sentence). A wrong one has also `because`, the text of its
     cause. A `fact` of the source.yaml beside the ledger is replaced by its value and tolerance. A
-    `SourceError` names file, field and value. What contradicts itself otherwise, such as bounds
-    in the wrong order, no longer holds when it is run.
+    `SourceError` names file, field and value.
     """
     read = reference_data.load_yaml(path)
     reference_data.refuse_invalid(read, schema, path)

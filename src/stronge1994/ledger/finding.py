@@ -116,55 +116,39 @@ def verdict(value: float, confirms: Mapping[str, float]) -> str:
 def judge(finding: Finding, entry: Mapping[str, Any]) -> str:
     """Why an entry of the ledger no longer holds; empty if it does.
 
-    The entry has `verdict`, `confirms`, and where the verdict is wrong `between`, bounds of
-    `value` on both sides. Where there is a corrected formula it must be exact.
+    The entry has `verdict` and `confirms`. Where there is a corrected formula it must be exact.
 
-    >>> entry = {"verdict": "wrong", "confirms": {"at_most": 1e-9}, "between": [1.1, 1.3]}
+    >>> entry = {"verdict": "wrong", "confirms": {"at_most": 1e-9}}
     >>> judge(Finding(1.2, 1e-14), entry)
     ''
     >>> judge(Finding(0.0, 1e-14), entry)
     'recorded as wrong, found confirmed'
     """
-    supported = verdict(finding.value, entry["confirms"])
-    complaints = _complaints(entry, supported, {"": finding.value}, {"": entry.get("between")})
+    if np.isnan(finding.value):
+        return "it found no number"
+    complaints = [_complaint(entry, verdict(finding.value, entry["confirms"]))]
     if finding.corrected is not None and not finding.corrected <= EXACT:
         complaints.append(f"the corrected formula is off by {finding.corrected:.2g}")
-    return "; ".join(complaints)
+    return "; ".join(filter(None, complaints))
 
 
 def judge_in_nature(values: Mapping[str, float], claim: Mapping[str, Any]) -> str:
     """Why the recorded verdict on a statement in nature no longer holds; empty if it does.
 
     It stands if it is true for both losses, fails if it is false for both, and otherwise depends
-    on the loss. `values` has what the claim's check finds with each loss; where the statement does
-    not stand the claim has `between`, bounds for each loss.
+    on the loss. `values` has what the claim's check finds with each loss.
 
-    >>> claim = {"verdict": "fails", "confirms": {"at_most": 0.01},
-    ...          "between": {"viscous": [0.1, 0.2], "plastic": [0.2, 0.3]}}
+    >>> claim = {"verdict": "fails", "confirms": {"at_most": 0.01}}
     >>> judge_in_nature({"viscous": 0.15, "plastic": 0.25}, claim)
     ''
     >>> judge_in_nature({"viscous": 0.0, "plastic": 0.25}, claim)
     'recorded as fails, found depends on the loss'
     """
-    of_losses = {loss: values[loss] for loss in LOSSES}
-    truths = {verdict(value, claim["confirms"]) == CONFIRMED for value in of_losses.values()}
-    supported = DEPENDS if len(truths) > 1 else STANDS if truths == {True} else FAILS
-    return "; ".join(_complaints(claim, supported, of_losses, claim.get("between", {})))
+    truths = {verdict(values[loss], claim["confirms"]) == CONFIRMED for loss in LOSSES}
+    return _complaint(claim, DEPENDS if len(truths) > 1 else STANDS if truths == {True} else FAILS)
 
 
-def _complaints(
-    recorded: Mapping[str, Any],
-    supported: str,
-    values: Mapping[str, float],
-    between: Mapping[str, Any],
-) -> list[str]:
-    """Why a recorded verdict does not hold: it is another one, or a value is out of its bounds."""
-    if supported != recorded["verdict"]:
-        return [f"recorded as {recorded['verdict']}, found {supported}"]
-    complaints = []
-    for name, value in values.items():
-        low, high = between.get(name) or (-np.inf, np.inf)
-        if not low <= value <= high:
-            label = f"{name}: " if name else ""
-            complaints.append(f"{label}{value:.4g} lies outside {low:g} to {high:g}")
-    return complaints
+def _complaint(recorded: Mapping[str, Any], supported: str) -> str:
+    """That a recorded verdict is another one; empty if it is not."""
+    known = recorded["verdict"]
+    return "" if supported == known else f"recorded as {known}, found {supported}"

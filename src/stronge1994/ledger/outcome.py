@@ -9,7 +9,7 @@ from stronge1994.tables import Row
 
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "only_if", "grade", "cause", "where", "says", "test",
-    "found", "confirms", "between", "corrected", "problem", "reading", "range", "correction",
+    "found", "confirms", "corrected", "problem", "reading", "range", "correction",
     "derivation", "because", "why", "in_nature", "nature", "nature_test", "nature_found",
     "nature_true_if",
 ]  # fmt: skip

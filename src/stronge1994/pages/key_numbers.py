@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from stronge1994 import tables
-from stronge1994.figures.inelastic import trials as inelastic
 from stronge1994.ledger import finding, outcome
 from stronge1994.names import MODELS, PAPER
 from stronge1994.pages import ledger_page
 from stronge1994.reference_data import Series
+from stronge1994.studies.inelastic import trials as inelastic
 from stronge1994.tables import Row, Table
 from stronge1994.verdict_table import Group, Verdict, Why
 
@@ -25,9 +25,6 @@ X, W = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 E, BETA_0 = inelastic.E, inelastic.BETA_0
 # The pairs of materials that decide most.
 SOFT, HARD = inelastic.SOFT, inelastic.HARD
-# Models are compared with the finite elements up to this friction, from this restitution on.
-LARGEST_FRICTION, LEAST_RESTITUTION = 0.1, 0.45
-NEAR_RESTITUTIONS = (0.62, 0.92)  # restitutions at which two Kelvin-Voigt elements are near
 
 
 def of_run(
@@ -40,15 +37,13 @@ def of_run(
     """All key numbers by name; one that is not finite is an error.
 
     `measures` are those of the ledger in nature, `curves` the tables of curves by their figures.
-    `series` has the entries in source.yaml of the measured `pairs` of materials and of the
-    finite-element `runs`.
+    `series` has the entry in source.yaml of the measured `pairs` of materials.
     """
     read = tables.read
     numbers = (
         _counts(verdicts, ledger)
         | _elastic(read(curves["fig5"]))
         | _pairs(read(curves["inelastic"]), Series(**series["pairs"]).points())
-        | _yielding(read(curves["yielding"]), Series(**series["runs"]).points())
         | _rubber(read(curves["rubber_sphere"]))
         | _nature(measures)
     )
@@ -127,22 +122,6 @@ def _pairs(curves: Table, measured: Table) -> Numbers:
     for model in MODELS:
         of_soft = {"variant": "pairs", "spread": inelastic.WHOLE, "pair": SOFT}
         numbers[f"pairs.soft.{model}"] = tables.select(curves, model=model, **of_soft)[BETA_0][0]
-    return numbers
-
-
-def _yielding(curves: Table, runs: Table) -> Numbers:
-    """Distances of each model from our finite elements, root mean square and largest."""
-    e, friction = runs[E], runs["friction [1]"]
-    # Runs to which the constant of the plastic law was fitted are no evidence.
-    compared = (friction <= LARGEST_FRICTION + 1e-9) & (e >= LEAST_RESTITUTION)
-    compared &= runs["set"] != "calibration"
-    near = compared & (e >= NEAR_RESTITUTIONS[0]) & (e <= NEAR_RESTITUTIONS[1])
-    numbers: Numbers = {}
-    for model in MODELS:
-        off = tables.select(curves, model=model, variant="runs")[W] - runs[W]
-        for part, kept in (("", compared), (".near", near)):
-            numbers[f"yielding.{model}{part}.rms"] = np.sqrt(np.mean(np.square(off[kept])))
-            numbers[f"yielding.{model}{part}.max"] = np.abs(off[kept]).max()
     return numbers
 
 

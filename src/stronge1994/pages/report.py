@@ -13,13 +13,13 @@ from typing import Any, TypeAlias
 import pandas as pd
 from markupsafe import Markup
 
-from stronge1994 import figure_table, gate, tables, verdict_table, versions, words
+from stronge1994 import accepted, figure_table, gate, tables, verdict_table, versions, words
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import DOUBT, LARGEST_ERROR
 from stronge1994.ledger import outcome
-from stronge1994.names import is_of_paper
+from stronge1994.names import home, is_of_paper
 from stronge1994.pages import (
     key_numbers,
     ledger_page,
@@ -32,9 +32,9 @@ from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
 
 MEANING = {
-    Verdict.FAILS: "outside its tolerance, or a known difference has changed: the run fails",
-    Verdict.DIFFERS: "as known: the cause is known or unknown, or the scatter of the data is not "
-    "published, so that nobody can say what a difference means",
+    Verdict.FAILS: "a check of our solver is outside its tolerance: the run fails",
+    Verdict.DIFFERS: "outside the tolerance: the cause is known or unknown, or the scatter of the "
+    "data is not published, so that nobody can say what a difference means",
     Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, "
     f"{100 * LARGEST_ERROR:g} % too large; or chance would explain the distances, but seldom",
     Verdict.NOT_COMPARED: "points, most of them of printed curves, are awaited, or are for other "
@@ -60,13 +60,13 @@ def page(values: TemplateValues) -> str:
         "noticed": verdict_table.noticed,
     }
     environment.tests["in_paper"] = is_of_paper
+    environment.filters["home"] = home
     table = values["table"]
     return environment.get_template("report.html").render(
         values,
         lapsed=outcome.failing(values["ledger"]),
         grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
         unmade=gate.unmade(verdicts),
-        known=verdict_table.known(verdicts),
         in_paper=[row for row in table if is_of_paper(row.figure)],
         beyond=[row for row in table if not is_of_paper(row.figure) and row.others],
         of_solver=figure_table.of_solver(verdicts),
@@ -185,8 +185,7 @@ def write(
     pictures of prints by series. `symbols` and `impacts` are those of the ledger; `rows` and
     `entries` are as in `gate.faults`.
     """
-    verdicts = verdict_table.gather(given.verdicts)
-    tables.write_rows(made.verdicts, verdicts, verdict_table.COLUMNS)
+    verdicts = verdict_table.gather([given.verdicts])
     ledger, measures = map(tables.read_rows, (given.ledger, given.in_nature))
     curves = {Path(path).stem: path for path in given.curves}
     numbers = key_numbers.of_run(verdicts, ledger, measures, curves, stated)
@@ -194,7 +193,7 @@ def write(
     trade = tables.read(curves["trade"])
     answers = which_model.answers(trade)
     answers.to_csv(made.which_model, index=False, lineterminator="\n")
-    copied = [made.verdicts, made.which_model, *given.curves, *given.residuals]
+    copied = [given.verdicts, made.which_model, *given.curves, *given.residuals]
     copy_tables(made.tables, copied)
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
     residuals = {Path(path).stem: pd.read_csv(path) for path in given.residuals}
@@ -206,7 +205,8 @@ def write(
         )
         for name, picture in pictures.items()
     }
-    run = versions.of_run(given.versions)
+    run = versions.of_run()
+    known = accepted.read(given.accepted)
     values = {
         "verdicts": shown,
         "table": table,
@@ -220,7 +220,7 @@ def write(
         "significance": config["significance"],
         "doubt": DOUBT * config["significance"],
         "run": run,
-        "faults": gate.faults(verdicts, ledger, rows, entries),
+        "faults": gate.faults(verdicts, ledger, rows, entries, known),
     }
     pages = {
         made.report: page(values),

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from stronge1994.reference_data.calibration import ANY, FLAT_BED, Calibration
-from stronge1994.reference_data.series import NUMBER, SourceError, head_and_table, text_of
+from stronge1994.reference_data.formats import Faults, SourceError, head_and_table, shown, text_of
+from stronge1994.reference_data.series import NUMBER, Series
 
 # What a head must have, and what is needed there.
 ONE = "one standard deviation, in the unit of this axis, a positive number as 0.012"
@@ -37,11 +38,13 @@ MORE = {
     "line_width": "the width of the printed line in pixels, a positive number as 2.4",
 }
 OF_SETTING = "for which value the points hold, a positive number as 0.83"
-# Fewest characters of texts; the schema asks the same of an origin of sigma.
+# Fewest characters of texts, of an origin of sigma as in `Series`.
 LEAST = {"who": 2, "from": 3, "how": 3, "sigma_origin": 10}
 PLACEHOLDER = re.compile(
     r"<.*>|\W*|x+|(your|todo|tbd)\b.*|(the )?name|who|when|from|how|none|n/a|unknown", re.I
 )
+# Smallest sigma of a reading, as a share of the range: a fifth of a pixel of a picture 4000 wide.
+SMALLEST_SIGMA = 5e-5
 # Share of the range by which the map of a picture may move a point out of it.
 SLACK = 0.03
 _N = NUMBER.pattern
@@ -67,10 +70,41 @@ def filled(series: Mapping[str, Any], file: Path) -> dict[str, Any]:
         "sigma_origin": head["sigma_origin"],
         "settings": series.get("settings", {}) | {key: float(head[key]) for key in asked},
         "calibration": _calibration(head, file),
+        "overlay": _overlay(file),
     }
     if "sigma_values" in head:
         entry["sigma_values"] = int(head["sigma_values"])
     return entry
+
+
+def checked(entry: Mapping[str, Any], file: Path) -> dict[str, Any]:
+    """What `filled` gave, with its number of points: none with such a sigma, or there twice."""
+    series, faults = Series(**entry), Faults()
+    assert series.calibration is not None
+    for where, axis, of_mark in zip(
+        "xy", series.axes.values(), series.calibration.sigma, strict=True
+    ):
+        least = SMALLEST_SIGMA * (axis.range[1] - axis.range[0])
+        for key, sigma in ((f"sigma_{where}", axis.sigma), (f"mark_sigma_{where}", of_mark)):
+            faults += [f"{file}: {key} = {refusal}" for refusal in axis.refusals(sigma)]
+            if float(sigma) < least:
+                allowed = f"allowed is {least:g} or more; no picture is as fine"
+                faults.append(f"{file}: {key} = {sigma:g}: {allowed}")
+    faults.refuse()
+    points = series.points()
+    for x, y in points[points.duplicated()].to_numpy()[:1]:
+        raise SourceError(f"{file}: the point {x:g}, {y:g} stands twice; the second tells nothing")
+    return {**entry, "points": len(points)}
+
+
+def _overlay(file: Path) -> str | None:
+    """The picture of a print under our curves, which may lie beside a reading."""
+    picture = file.with_suffix(".png")
+    if not picture.is_file():
+        return None
+    if not picture.read_bytes().startswith(b"\x89PNG"):
+        raise SourceError(f"{picture}: no PNG; figures/your_copy.html saves one")
+    return str(picture)
 
 
 def _axis(axis: Mapping[str, Any], sigma: str) -> dict[str, Any]:
@@ -106,23 +140,23 @@ def _calibration(head: Mapping[str, str], file: Path) -> Calibration:
 
 
 def _head(file: Path, wanted: Mapping[str, str]) -> dict[str, str]:
-    """Values of a head, which has these keys."""
-    allowed, head = {**wanted, **MORE}, {}
+    """Values of a head, which has these keys; all that is wrong in it is told at once."""
+    allowed, head, faults = {**wanted, **MORE}, {}, Faults()
     for number, line in enumerate(head_and_table(text_of(file))[0], 1):
         # Excel puts quotes around a line that has commas, and commas behind one that has few.
         key, colon, value = map(str.strip, line.strip('", \t\r\n').lstrip("# \t").partition(":"))
-        where = f"{file}, line {number}:"
+        problem = ""
         if key == "series" and value != f"{file.parent.name}/{file.stem}":
             belongs = ascii(f"{value}; it belongs to data/{value}.csv")[1:-1]
-            raise SourceError(f"{where} this is a reading of {belongs}")
-        if key in head:
-            raise SourceError(f"{where} {key} stands twice")
-        if colon and key not in allowed:
-            raise SourceError(
-                f"{where} {key[:60]!a} is no key of a head; allowed are {', '.join(allowed)}"
-            )
-        if colon and key != "series" and not _is_admissible(key, value):
-            raise SourceError(f"{where} {key} = {value[:60]!a}; needed is {allowed[key]}")
+            problem = f"this is a reading of {belongs}"
+        elif key in head:
+            problem = f"{key} stands twice"
+        elif colon and key not in allowed:
+            problem = f"{shown(key)} is no key of a head; allowed are {', '.join(allowed)}"
+        elif colon and key != "series" and not _is_admissible(key, value):
+            problem = f"{key} = {shown(value)}; needed is {allowed[key]}"
+        if problem:
+            faults.append(f"{file}, line {number}: {problem}")
         if colon:
             head[key] = value.replace("$", "")  # which begins a formula on the pages
     if not head:
@@ -130,9 +164,9 @@ def _head(file: Path, wanted: Mapping[str, str]) -> dict[str, str]:
             f"{file}: lines as `# who: Ada Reader` are missing above the table, with "
             f"{', '.join(wanted)}; figures/your_copy.html writes them"
         )
-    for key, what in wanted.items():
-        if key not in head:
-            raise SourceError(f"{file}: a line `# {key}:` is missing; needed is {what}")
+    missing = {key: what for key, what in wanted.items() if key not in head}.items()
+    faults += [f"{file}: a line `# {key}:` is missing; needed is {what}" for key, what in missing]
+    faults.refuse()
     return head
 
 

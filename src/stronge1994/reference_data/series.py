@@ -1,54 +1,93 @@
-"""Series and stated facts of a source.yaml as objects with fields, and the points of a series."""
+"""What a source.yaml states: sources, series with their axes, and facts; the points of a series."""
 
-import io
-import itertools
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field
-from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
+from pydantic import Discriminator, Field, Tag
 from pydantic.dataclasses import dataclass
 
 from planarimpact.common.arrays import Array
-from stronge1994.reference_data import csv_text
+from stronge1994.reference_data import formats
 from stronge1994.reference_data.calibration import Calibration
+from stronge1994.reference_data.formats import (
+    COMMAS,
+    CONFIG,
+    Declared,
+    Number,
+    Positive,
+    SourceError,
+    Span,
+    Truth,
+    Whole,
+)
 from stronge1994.tables import Table, with_unit
 
 # Kinds of series that hold points of nature: published ones, or measured by their owner.
 PUBLISHED = ("measured", "digitised", "stated", "awaited")
+# What an entry has besides, by its kind.
+NEEDED = {
+    "measured": ("measured_by", "points"),
+    "digitised": ("digitised_by", "points"),
+    "stated": ("points",),
+    "computed": ("command", "method", "points"),
+    "awaited": (),
+}
 # float() would also take `1_000`, `nan` and digits of other scripts.
 NUMBER = re.compile(r"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?")
 # Sigmas by which a value may lie outside the range of its axis.
 MOST_SIGMAS_OUTSIDE = 3
-# How others write the letters of our units.
-LETTERS = str.maketrans({"\u00b5": "mu", "\u03bc": "mu", "\u03a9": "Omega", "\u2126": "Omega"})
-# A row whose decimals have commas: `1,5;2,3` or `"1,5","2,3"` or `1,5,2,3`.
-WITH_COMMAS = re.compile(r'^"?[+-]?\d+,\d+"? *[,;\t] *"?[+-]?\d+,\d+"? *$', re.M)
-COMMAS = "decimal commas; allowed are points, and commas between cells"
+# Largest sigma, as a share of the range of its axis. The series here have a tenth to a half of it.
+# A measured series may have a larger one: that is how it was measured.
+LARGEST_SIGMA = 0.01
+Text3: TypeAlias = Annotated[str, Field(min_length=3)]
+Text10: TypeAlias = Annotated[str, Field(min_length=10)]
+Name: TypeAlias = Annotated[str, Field(pattern="^[a-z0-9_.]+$")]
+Column: TypeAlias = Annotated[str, Field(pattern="^[a-z_]+$")]
 
 
-class SourceError(Exception):
-    """Something in data/ contradicts source.yaml or its schema."""
-
-
-@dataclass(frozen=True)
-class Axis:
+@dataclass(frozen=True, config=CONFIG)
+class Axis(Declared):
     """An axis: a column of a series, its unit, what its values can be, and their sigma.
 
     `sigma` is one number for all points, or the name of the column that has that of each. A value
     may lie outside the range by `slack`, for an error that all points of a reading share.
     """
 
-    column: str
+    column: Column
     unit: str
-    sigma: float | str
-    range: tuple[float, float]
+    sigma: Number | Column
+    range: Span
     slack: float = 0.0
+    symbol: str = ""
+    OURS: ClassVar = ("slack",)
+
+    def faults(self) -> Iterator[str]:
+        """A range the wrong way round, and a sigma that is no size."""
+        low, high = self.range
+        if not low < high:
+            yield f"range = [{low:g}, {high:g}]: the first number must be the smaller"
+        if not (isinstance(self.sigma, str) or self.sigma > 0):
+            yield f"sigma = {self.sigma:g}: allowed is more than 0"
+        if not self.symbol:
+            yield "symbol: missing"
+
+    def refusals(self, sigma: float | str) -> Iterator[str]:
+        """Why points with such a sigma would judge nothing."""
+        low, high = self.range
+        most = LARGEST_SIGMA * (high - low)
+        if isinstance(sigma, str):
+            yield f"{sigma!a}: allowed is one number for all points"
+        elif sigma > most:
+            yield (
+                f"{sigma:g}: allowed is up to {most:g}, a hundredth of the range {low:g} to "
+                f"{high:g}; with more the series would judge nothing"
+            )
 
     @property
     def name(self) -> str:
@@ -56,15 +95,15 @@ class Axis:
         return f"{self.column} [{self.unit}]" if self.unit else self.column
 
     @property
-    def sigma_name(self) -> str | None:
-        """Column header of the uncertainties; None where one number holds for all.
+    def of_sigma(self) -> "Axis | None":
+        """The column of the uncertainties; None where one number holds for all.
 
-        >>> Axis("friction", "1", "friction_uncertainty", (0, 1)).sigma_name
+        >>> Axis("friction", "1", "friction_uncertainty", (0, 1)).of_sigma.name
         'friction_uncertainty [1]'
         """
-        if not isinstance(self.sigma, str):
-            return None
-        return Axis(self.sigma, self.unit, 0.0, self.range).name
+        low, high = self.range
+        size = (0.0, high - low)
+        return Axis(self.sigma, self.unit, 0.0, size) if isinstance(self.sigma, str) else None
 
     @property
     def beyond(self) -> float:
@@ -90,21 +129,33 @@ class Axis:
         >>> Axis("angle", "deg", 0.5, (0, 90)).sigmas(pd.DataFrame({"angle [deg]": [30.0, 60.0]}))
         array([0.5, 0.5])
         """
-        size = points[self.sigma_name] if self.sigma_name else self.sigma
+        size = points[self.of_sigma.name] if self.of_sigma else self.sigma
         return np.broadcast_to(np.asarray(size, float), len(points))
 
 
-@dataclass(frozen=True)
-class Fact:
+@dataclass(frozen=True, config=CONFIG)
+class Fact(Declared):
     """A number that a source states, with a tolerance; or an inequality that it states."""
 
-    name: str
-    unit: str
-    value: float | None = None
-    tolerance: float | None = None
-    less_than: float | None = None
-    greater_than: float | None = None
+    name: str = ""
+    unit: str = ""
+    value: Number | None = None
+    tolerance: Positive | None = None
+    less_than: Number | None = None
+    greater_than: Number | None = None
     settings: dict[str, Any] = field(default_factory=dict)  # as those of a `Series`
+    statement: Text10 = ""
+    where: Text3 = ""
+    tolerance_origin: Annotated[str, Field(min_length=5)] = ""
+    OURS: ClassVar = ("name",)
+
+    def faults(self) -> Iterator[str]:
+        """What a fact lacks, or has too much."""
+        needed = ["statement", "where", "unit"]
+        needed += [] if self.value is None else ["tolerance", "tolerance_origin"]
+        yield from (f"{key}: missing" for key in needed if not getattr(self, key))
+        if [self.value, self.less_than, self.greater_than].count(None) != 2:
+            yield "value: allowed is one of value, less_than and greater_than"
 
     @property
     def stated(self) -> str:
@@ -117,32 +168,71 @@ class Fact:
         return next(f"{s}{with_unit(v, self.unit)}" for s, v in signs.items() if v is not None)
 
 
-@dataclass(frozen=True)
-class Series:
-    """Points of one source: its entry in source.yaml.
+Several: TypeAlias = Annotated[
+    Annotated[Axis, Tag("one")] | Annotated[tuple[Axis, ...], Field(min_length=2), Tag("several")],
+    Discriminator(lambda y: "several" if isinstance(y, list | tuple) else "one"),
+]
 
-    `path` is that of its table, None while it is awaited. `others` says that a code which is not
-    ours computed it. `sigma_values` is the number of independent values from which the sigmas were
-    estimated, None if they are known. `parameters` are those of the source, by name; `settings`
-    are those of a figure for which alone the points hold. `calibration` is that of the picture in
-    which the points were read, if it is known; `overlay` is a picture of it under our curves.
+
+@dataclass(frozen=True, config=CONFIG)
+class Series(Declared):
+    """Points of one source: its entry in source.yaml, and what is known of them besides.
+
+    `given` are columns beside the axes, which curves are solved with. `labels` are columns that
+    name a point; those of the table of curves, such as model and e, choose the curve that it is
+    compared with. `others` says that a code which is not ours computed it. `sigma_values` is the
+    number of independent values from which the sigmas were estimated, None if they are known.
+    `settings` are those of a figure for which alone the points hold: where a run has others, they
+    are not compared; of a list they are values that it must have. `open` names settings that the
+    source does not state: whoever reads an awaited series says in the head of its file for which
+    value of each the points hold. `legend` is the name in a legend, for readers; `count` is that of
+    the points, `points` in the file, where a cut table is refused.
+
+    `path` is that of its table, None while it is awaited; `name` is source/series. `parameters` are
+    those of the source, by name. `calibration` is that of the picture in which the points were
+    read, if it is known; `overlay` is a picture of it under our curves.
     """
 
-    kind: str
+    kind: Literal["measured", "digitised", "stated", "computed", "awaited"]
     x: Axis
-    y: Axis | tuple[Axis, ...]
+    y: Several
     path: str | None = None
-    name: str = ""  # source/series
+    name: str = ""
     given: tuple[Axis, ...] = ()
     labels: tuple[str, ...] = ()
-    others: bool = False
-    sigma_values: int | None = None
-    figure: str = ""
+    others: Truth = False
+    sigma_values: Whole | None = None
+    figure: Text3 = ""
+    legend: Text3 = ""
     parameters: dict[str, float] = field(default_factory=dict)
     settings: dict[str, Any] = field(default_factory=dict)
     open: tuple[str, ...] = ()
     calibration: Calibration | None = None
     overlay: str | None = None
+    sigma_origin: Text10 = ""
+    measured_by: Text3 = ""  # who, when, with what
+    digitised_by: Text3 = ""
+    command: str = ""  # the one that computed it
+    method: str = ""
+    count: Whole | None = Field(default=None, alias="points")
+    OURS: ClassVar = ("path", "name", "parameters", "calibration", "overlay")
+
+    def faults(self) -> Iterator[str]:
+        """What its kind asks for: keys, and how its sigmas are stated."""
+        for key in ("figure", "sigma_origin", *NEEDED[self.kind]):
+            if not getattr(self, "count" if key == "points" else key):
+                yield f"{key}: missing; a series that is {self.kind} has it"
+        if self.open and self.kind != "awaited":
+            yield "open: allowed where a series is awaited"
+        if isinstance(self.y, tuple) and self.kind != "computed":
+            yield "y: allowed are several axes where a series is computed"
+        for place, axis in self.axes.items():
+            if self.kind == "stated" and not isinstance(axis.sigma, str):
+                yield f"{place}.sigma = {axis.sigma:g}: allowed is the column that has that of each"
+            elif axis in self.given and isinstance(axis.sigma, str):
+                continue
+            elif self.kind not in ("measured", "stated"):
+                yield from (f"{place}.sigma = {refusal}" for refusal in axis.refusals(axis.sigma))
 
     @property
     def ordinates(self) -> tuple[Axis, ...]:
@@ -167,27 +257,29 @@ class Series:
         If there are several y axes, some of their cells may be empty: these become nan. A
         `SourceError` names file, line, column and value.
         """
-        path = str(self.path)
         axes = {axis.name: axis for axis in self.axes.values()}
-        for axis in list(axes.values()):
-            if axis.sigma_name:
-                low, high = axis.range
-                axes[axis.sigma_name] = Axis(axis.sigma_name, "", 0.0, (0.0, high - low))
-        lines, cells = _cells(path, [*self.labels, *axes])
+        axes |= {size.name: size for axis in self.axes.values() if (size := axis.of_sigma)}
+        lines, cells = formats.cells_of(str(self.path), [*self.labels, *axes])
         may_be_empty = {axis.name for axis in self.y} if isinstance(self.y, tuple) else set()
-        columns: dict[str, Any] = {label: _label(cells[label]) for label in self.labels}
-        for column in axes:
-            columns[column] = [
-                _number(cell, f"{path}, line {line}, column '{column}'")
-                if cell or column not in may_be_empty
-                else math.nan
-                for line, cell in zip(lines, cells[column], strict=True)
-            ]
+        columns: dict[str, Any] = {}
+        for name, own in cells.items():
+            empty = (name in may_be_empty or name in self.labels) and any(own)
+            good = [bool(NUMBER.fullmatch(cell)) or (empty and not cell) for cell in own]
+            if all(good):
+                columns[name] = [float(cell or math.nan) for cell in own]
+            elif name in self.labels:
+                columns[name] = own
+            else:
+                row = good.index(False)
+                problem = "is not a decimal number such as -0.05"
+                problem = f"has {COMMAS}" if {*",;"} & {*own[row]} else problem
+                where = f"{self.path}, line {lines[row]}, column '{name}'"
+                raise SourceError(f"{where}: {own[row]!a} {problem}")
         points = pd.DataFrame(columns)
         for column, axis in axes.items():
             if not (admitted := axis.admits(points[column])).all():
                 row, (low, high) = int(admitted.argmin()), axis.range
-                where = f"{path}, line {lines[row]}, column '{column}'"
+                where = f"{self.path}, line {lines[row]}, column '{column}'"
                 sigmas = "" if axis.slack else f"{MOST_SIGMAS_OUTSIDE} sigmas, "
                 raise SourceError(
                     f"{where}: {cells[column][row]} is outside {low:g} to {high:g} by more than "
@@ -209,77 +301,40 @@ class Series:
         return ""
 
 
+@dataclass(frozen=True, config=CONFIG)
+class Parameter(Declared):
+    """A number that a source states of what it measured or computed.
+
+    `uncertainty` is one standard deviation, of rounding a twelfth of the last digit under the root;
+    None where it is not stated.
+    """
+
+    value: Number
+    unit: str
+    uncertainty: Annotated[float, Field(strict=True, ge=0)] | None
+    origin: str
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Source(Declared):
+    """A source.yaml. `holds` and `made` are lines for data/README.md.
+
+    `made_with` names other files of the folder, which make the series.
+    """
+
+    holds: Text10
+    made: Text10
+    citation: Text10
+    doi: Annotated[str, Field(pattern="^10[.]")] | None
+    rights: Text10
+    sign_convention: Text10
+    parameters: dict[str, Parameter]
+    note: str = ""
+    made_with: list[str] = field(default_factory=list)
+    series: dict[Name, Series] = field(default_factory=dict)
+    facts: dict[Name, Fact] = field(default_factory=dict)
+
+
 def of(name: str, entry: Mapping[str, Any]) -> Series | Fact:
     """A series or a fact `source/name` from its entry in source.yaml; a series has a `kind`."""
     return (Series if "kind" in entry else Fact)(**{**entry, "name": name})
-
-
-def text_of(path: str | Path) -> str:
-    """Text of a file in UTF-8; of one that is none a `SourceError` names the line."""
-    try:
-        return csv_text.decoded(Path(path).read_bytes())
-    except OSError as error:
-        raise SourceError(f"{path}: {error.strerror}") from None
-    except ValueError as error:
-        raise SourceError(f"{path}, {error}") from None
-
-
-def head_and_table(text: str) -> tuple[list[str], str]:
-    r"""Lines with # before a table, and the text with blank ones there: lines keep their numbers.
-
-    >>> head_and_table("# who: me\na,b\n1,2\n")
-    (['# who: me\n'], '\na,b\n1,2\n')
-    """
-    lines = list(io.StringIO(text, newline=None))
-    head = list(itertools.takewhile(lambda line: line.strip('" \t\r\n')[:1] in ("", "#"), lines))
-    return head, "\n" * len(head) + "".join(lines[len(head) :])
-
-
-def _cells(path: str, columns: list[str]) -> tuple[list[int], dict[str, list[str]]]:
-    """Lines of the rows of a table, and the cells of these columns, which it must have.
-
-    A header may lack the unit of a column that has its name alone, or have other blanks in it.
-    """
-    head, text = head_and_table(text_of(path))
-    try:
-        header, rows = csv_text.rows(text)
-    except ValueError as error:
-        problem = f"{error}"
-        if row := WITH_COMMAS.search(text):
-            line = text.count("\n", 0, row.start()) + 1
-            problem = f"line {line}: {row[0]!a} has {COMMAS}"
-        raise SourceError(f"{path}, {problem}") from None
-    places, bare = {}, [column.partition(" [")[0] for column in columns]
-    for column, name in zip(columns, bare, strict=True):
-        known = {_squeezed(column), _squeezed(name if bare.count(name) == 1 else column)}
-        at = [place for place, cell in enumerate(header) if _squeezed(cell) in known]
-        if len(at) != 1:
-            problem = "stands twice" if at else "is missing"
-            found = ascii(", ".join(header))[1:-1]
-            where = f"{path}, line {len(head) + 1}"
-            raise SourceError(f"{where}: column '{column}' {problem}; found {found}")
-        places[column] = at[0]
-    if not rows:
-        raise SourceError(f"{path}: no points")
-    cells = {column: [row[place].strip() for _, row in rows] for column, place in places.items()}
-    return [line for line, _ in rows], cells
-
-
-def _squeezed(name: str) -> str:
-    """A name of a column in our letters, without blanks."""
-    return "".join(name.translate(LETTERS).split())
-
-
-def _label(cells: list[str]) -> Any:
-    """Labels of points as numbers, if all are numbers or empty; else as texts."""
-    if any(cells) and all(NUMBER.fullmatch(cell) for cell in cells if cell):
-        return np.array([float(cell or "nan") for cell in cells])
-    return cells
-
-
-def _number(cell: str, where: str) -> float:
-    """A decimal number."""
-    if NUMBER.fullmatch(cell):
-        return float(cell)
-    problem = f"has {COMMAS}" if {*",;"} & {*cell} else "is not a decimal number such as -0.05"
-    raise SourceError(f"{where}: {cell!a} {problem}")

@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from stronge1994.names import SCENE
-from stronge1994.reference_data import Series
+from stronge1994.reference_data import Inventory, Series, reference
 from stronge1994.settings import figures
-from stronge1994.settings.config import SHARED, Config, Entry, Inventory, reference, table_of
+from stronge1994.settings.config import SHARED, Config, Entry, table_of
 
 
 def physics(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
@@ -85,15 +85,9 @@ def settings_of(config: Config, name: str) -> dict[str, Any]:
 
 
 def references(config: Config, inventory: Inventory, name: str) -> dict[str, Entry]:
-    """Series and facts that comparisons name, with the parameters of their source."""
+    """Series and facts that comparisons name."""
     named = [c["reference"] for c in comparisons(config, name).values() if "reference" in c]
-    return {full: _with_parameters(inventory, full) for full in named}
-
-
-def _with_parameters(inventory: Inventory, full: str) -> Entry:
-    stated = inventory[full.split("/")[0]]["parameters"]
-    parameters = {key: parameter["value"] for key, parameter in stated.items()}
-    return reference(inventory, full) | {"parameters": parameters}
+    return {full: reference(inventory, full) for full in named}
 
 
 def _files(entries: Mapping[str, Entry]) -> list[str]:
@@ -106,8 +100,7 @@ def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Ent
     compared = references(config, inventory, figure).items()
     asked = figures.stated()[figure].get("draws", [])
     chosen = {name: entry for name, entry in compared if entry.get("kind") != "computed"}
-    chosen |= {full: _with_parameters(inventory, full) for full in asked}
-    return {name: entry for name, entry in chosen.items() if entry.get("kind") != "awaited"}
+    return chosen | {full: reference(inventory, full) for full in asked}
 
 
 def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str | None]:

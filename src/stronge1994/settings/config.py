@@ -1,31 +1,26 @@
 """The config, which is refused before any work where it is not admissible."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
+from stronge1994.judging.comparisons import Comparison
 from stronge1994.names import SCENE
-from stronge1994.reference_data import Series, strict_yaml
+from stronge1994.reference_data import Faults, SourceError, formats, strict_yaml
 from stronge1994.settings import figures
 
 Config: TypeAlias = dict[str, Any]  # what the config files hold
-Inventory: TypeAlias = dict[str, Any]  # `{source: contents of its source.yaml}`
+Inventory: TypeAlias = reference_data.Inventory
 Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fact of a source
 
 FILE = "workflow/config.yaml"  # what a user edits
 SHARED = ("mass_ratio", "stiffness_ratio")  # groups that figures share
-# Largest allowance for a model, as a share of the range of its axis.
-LARGEST_ALLOWANCE = 0.02
 # Reason for the tolerance of the comparison of a scene.
 OF_SCENES = (
     "every row against a second code of the continuum of its loss, with the mechanics of rigid "
     "bodies in 50 digits; sigma is the accuracy of that and the tolerance of the scene"
 )
-
-
-class ConfigError(reference_data.SourceError):
-    """The config is not admissible."""
 
 
 def load(files: Iterable[str | Path], arguments: Iterable[str] = ()) -> Config:
@@ -40,11 +35,11 @@ def load(files: Iterable[str | Path], arguments: Iterable[str] = ()) -> Config:
     for text in arguments:
         name, _, value = text.partition("=")
         if name in given:
-            raise ConfigError(f"--config {name}: it is there twice")
+            raise SourceError(f"--config {name}: it is there twice")
         try:
             given |= strict_yaml.load(f"{name}: {value}")
         except ValueError as error:
-            raise ConfigError(f"--config {text!a}: {str(error).partition(': ')[2]}") from None
+            raise SourceError(f"--config {text!a}: {str(error).partition(': ')[2]}") from None
     return complete(overridden(config, given))
 
 
@@ -86,87 +81,63 @@ def _of_scenes(scenes: Any) -> dict[str, Entry]:
 
 def schema() -> dict[str, Any]:
     """JSON schema of the whole config, with the settings of each figure."""
-    whole, stated = figures.schema("config"), figures.stated().items()
-    own = {
-        "type": "object",
-        "additionalProperties": False,
-        "properties": {name: figures.schema_of(figure["settings"]) for name, figure in stated},
-    }
-    return whole | {
-        "properties": whole["properties"] | {"figures": own},
-        "$defs": whole["$defs"] | figures.definitions(),
-    }
+    whole = figures.config_schema()
+    every = {name: figures.schema_of(own["settings"]) for name, own in figures.stated().items()}
+    own = {"type": "object", "additionalProperties": False, "properties": every}
+    return whole | {"properties": whole["properties"] | {"figures": own}}
 
 
 def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) -> None:
-    """Refuse an inadmissible config, naming the field, its value and what is allowed."""
+    """Refuse an inadmissible config: for each fault field, value and what is allowed."""
     reference_data.refuse_invalid(config, schema(), "config")
-    for figure, stated in figures.stated().items():
-        for key, setting in stated["settings"].items():
-            where, value = f"config: figures.{figure}.{key}", config["figures"][figure][key]
-            kind = setting.get("allowed")
-            if kind == "source":
-                _check_source(where, value, setting.get("parameters", []), inventory)
-            if kind == "table" and "kind" not in reference(inventory, value, where):
-                raise ConfigError(f"{where}: {value!a} is no series")
+    faults, stated, names = Faults(), figures.comparisons(), judged(config)
+    for figure, own in figures.stated().items():
+        for key, setting in own["settings"].items():
+            with faults:
+                where, value = f"config: figures.{figure}.{key}", config["figures"][figure][key]
+                _check_setting(where, value, setting, inventory)
     for scene in config["scenes"]:
-        if not Path(f"data/scenes/{scene}.csv").is_file():
-            raise ConfigError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
-        reference_data.text_of(f"data/scenes/{scene}.csv")
-    for name, comparison in config["comparisons"].items():
-        if comparison["figure"] not in judged(config):
-            raise ConfigError(
-                f"config: comparisons.{name}.figure: {comparison['figure']!a} is not judged; "
-                "allowed are " + ", ".join(judged(config))
-            )
-        _check_comparison(f"config: comparisons.{name}", comparison, inventory)
-        for key in ("differs", "or_printed"):
-            entry = comparison.get(key, {}).get("entry")
-            if entry is not None and entry not in ledger:
-                raise ConfigError(
-                    f"config: comparisons.{name}.{key}.entry: {entry!a} is not in the ledger; a "
+        with faults:
+            if not Path(f"data/scenes/{scene}.csv").is_file():
+                raise SourceError(f"config: scenes.{scene}: there is no data/scenes/{scene}.csv")
+            reference_data.text_of(f"data/scenes/{scene}.csv")
+    for name, entry in config["comparisons"].items():
+        own = entry == stated.get(name)
+        file = figures.file_of(entry["figure"]) if own else "config"
+        where = f"{file}: comparisons.{name}"
+        with faults:
+            if entry.get("figure") not in names:
+                problem = f"{entry.get('figure')!a} is not judged; allowed are {', '.join(names)}"
+                raise SourceError(f"{where}.figure: {problem}")
+            known: dict[str, Any] = {"name": name}
+            if full := entry.get("reference"):
+                found = reference_data.reference(inventory, full, f"{where}.reference")
+                known["reference"] = reference_data.of(full, found)
+            comparison = formats.read(Comparison, entry, where, **known)
+            of_ledger = comparison.differs and comparison.differs.entry
+            if of_ledger and of_ledger not in ledger:
+                raise SourceError(
+                    f"{where}.differs.entry: {of_ledger!a} is not in the ledger; a "
                     "difference that does not concern the paper has a `note` instead"
                 )
+    faults.refuse()
 
 
-def _check_source(where: str, name: str, needed: list[str], inventory: Inventory) -> None:
-    if name not in inventory:
-        raise ConfigError(f"{where}: {name!a} is not in data/; allowed are {', '.join(inventory)}")
-    missing = set(needed) - set(inventory[name]["parameters"])
-    if missing:
-        problem = f"{name!a} states no {min(missing)}; needed are {', '.join(needed)}"
-        raise ConfigError(f"{where}: {problem}")
-
-
-def _check_comparison(where: str, comparison: Entry, inventory: Inventory) -> None:
-    metric = comparison["metric"]
-    for key, (low, high) in comparison.get("bounds", {}).items():
-        small, large = sorted((abs(low), abs(high)))
-        if not (low * high > 0 and large < 2 * small):
-            raise ConfigError(
-                f"{where}.bounds.{key} = {[low, high]}: both have one sign, and neither is "
-                "twice the other or more: else the difference could double unnoticed"
-            )
-    if metric not in ("distance", "vertices", "landmark"):
+def _check_setting(
+    where: str, value: Any, setting: Mapping[str, Any], inventory: Inventory
+) -> None:
+    """Refuse a source that is not there or lacks parameters, and a table that is no series."""
+    kind, needed = setting.get("allowed"), setting.get("parameters", [])
+    if kind == "table" and "kind" not in reference_data.reference(inventory, value, where):
+        raise SourceError(f"{where}: {value!a} is no series")
+    if kind != "source":
         return
-    known = reference(inventory, comparison["reference"], where)
-    if ("statement" in known) != (metric == "landmark"):
-        raise ConfigError(f"{where}: metric {metric}: a landmark needs a fact, all others a series")
-    if metric == "distance" and not ("curve" in comparison or known.get("labels")):
-        raise ConfigError(f"{where}: metric distance needs `curve`")
-    for label in comparison.get("points", {}):
-        if label not in known.get("labels", []):
-            raise ConfigError(f"{where}.points.{label}: no label of {comparison['reference']}")
-    for key, size in comparison.get("allowance", {}).items():
-        series = Series(**known)
-        for axis in [series.x] if key == "x" else series.ordinates:
-            low, high = axis.range
-            if size > LARGEST_ALLOWANCE * (high - low):
-                raise ConfigError(
-                    f"{where}.allowance.{key} = {size:g}: allowed is up to "
-                    f"{LARGEST_ALLOWANCE * (high - low):g}, a fiftieth of the range {low:g} to "
-                    f"{high:g}; with more the comparison would judge nothing"
-                )
+    if value not in inventory:
+        problem = f"{value!a} is not in data/; allowed are {', '.join(inventory)}"
+        raise SourceError(f"{where}: {problem}")
+    if missing := set(needed) - set(inventory[value]["parameters"]):
+        problem = f"{value!a} states no {min(missing)}; needed are {', '.join(needed)}"
+        raise SourceError(f"{where}: {problem}")
 
 
 def judged(config: Config) -> list[str]:
@@ -183,15 +154,3 @@ def table_of(name: str) -> str:
     if name.startswith(SCENE):
         return f"results/scenes/{name.removeprefix(SCENE)}.csv"
     return f"results/curves/{name}.csv"
-
-
-def reference(inventory: Inventory, name: str, where: str = "reference") -> Entry:
-    """The series, which has a `kind`, or the fact that `source/entry` names."""
-    source, _, entry = name.partition("/")
-    stated = inventory.get(source, {})
-    known = stated.get("series", {}) | stated.get("facts", {})
-    if entry in known:
-        return known[entry]
-    allowed = ", ".join([f"{source}/{one}" for one in known] or inventory)
-    problem = f"{name!a} is neither a series nor a fact in data/; allowed are {allowed}"
-    raise ConfigError(f"{where}: {problem}")

@@ -1,4 +1,4 @@
-"""The figure.yaml of each folder of `figures`: settings, caption, comparisons."""
+"""The figure.yaml of each folder of `figures` and `studies`: settings, caption, comparisons."""
 
 import copy
 import functools
@@ -6,40 +6,164 @@ import itertools
 import os
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import field, fields
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag
+from pydantic.alias_generators import to_camel
+from pydantic.dataclasses import dataclass
 
 from stronge1994 import reference_data
+from stronge1994.judging.comparisons import Comparison
+from stronge1994.names import home
+from stronge1994.reference_data import Faults, SourceError, formats
+from stronge1994.reference_data.formats import CONFIG, Declared, Number, Truth, Whole
 
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
-FOLDER = Path(__file__).parents[1] / "figures"
+PACKAGE = Path(__file__).parents[1]  # of the folders `figures` and `studies`
 PROJECT = Path(__file__).parents[3]
+KEYS = {own.name for own in fields(Comparison)}  # of a comparison
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Slide(Declared):
+    """A slide shows one panel of the figure, without its letter, below a title.
+
+    `only` has the entries of the legend that it has, each without its numbers; without it all.
+    """
+
+    panel: Annotated[str, Field(pattern="^[a-z]$")]
+    title: Annotated[str, Field(min_length=10)]
+    only: Annotated[list[str], Field(min_length=1)] = field(default_factory=list)
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Explorer(Declared):
+    """The explorer has a link to its impacts; what its settings leave open, in deg."""
+
+    friction: Number | None = None
+    angle: Number | None = None
+
+
+@dataclass(frozen=True, config=CONFIG | ConfigDict(alias_generator=to_camel))
+class Allowed(Declared):
+    """What a setting may be: keys of a JSON schema; of `ascending` numbers each is larger."""
+
+    type: Literal["number", "integer", "boolean", "string", "array"] | None = None
+    ref: Annotated[str | None, Field(alias="$ref", pattern="^#/[$]defs/[a-z_]+$")] = None
+    enum: list[Any] | None = None
+    minimum: Number | None = None
+    maximum: Number | None = None
+    exclusive_minimum: Number | None = None
+    exclusive_maximum: Number | None = None
+    items: "Allowed | None" = None
+    prefix_items: "list[Allowed] | None" = None
+    min_items: Whole | None = None
+    max_items: Whole | None = None
+    unique_items: Truth | None = None
+    ascending: Truth | None = None
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Setting(Declared):
+    """A setting, with a JSON schema or a kind of config.schema.yaml.
+
+    Of a source `parameters` are those that the curves need; with `uncertain` there are curves, too,
+    with each of these off by its sigma.
+    """
+
+    value: Any
+    allowed: Annotated[
+        Annotated[str, Tag("kind")] | Annotated[Allowed, Tag("schema")],
+        Discriminator(lambda own: "schema" if isinstance(own, dict) else "kind"),
+    ]
+    parameters: list[str] = field(default_factory=list)
+    uncertain: Truth = False
+
+
+def _is_setting(node: Any) -> bool:
+    return not isinstance(node, dict) or bool({"value", "allowed"} & {*node})
+
+
+class Settings(RootModel[dict[str, Any]]):
+    """Settings, and groups of them."""
+
+    root: dict[
+        str,
+        Annotated[
+            Annotated[Setting, Tag("one")] | Annotated["Settings", Tag("group")],
+            Discriminator(lambda node: "one" if _is_setting(node) else "group"),
+        ],
+    ]
+
+
+@dataclass(frozen=True, config=CONFIG)
+class Figure(Declared):
+    """A figure.yaml. `shows` is one line, for figures/README.md.
+
+    `shared` are groups of the physics that it shares with others; `nodes` says whether its curves
+    pass through the points of the references. `draws` has series that its drawing gets too, beside
+    those published that it compares; computed ones, or of another figure. One that is `timed`
+    measures time: `snakemake figures` leaves it out. In `comparisons` an entry with `each` stands
+    for several, see `expanded`.
+    """
+
+    shows: Annotated[str, Field(min_length=10)]
+    caption: Annotated[str, Field(min_length=30)]
+    settings: Settings
+    comparisons: dict[str, dict[str, Any]]
+    shared: list[Literal["mass_ratio", "stiffness_ratio"]] = field(default_factory=list)
+    nodes: Truth = False
+    draws: list[str] = field(default_factory=list)
+    slide: Slide | None = None
+    timed: Truth = False
+    explorer: Explorer | None = None
+
+    def faults(self) -> Iterator[str]:
+        """An `each` that lists no cases."""
+        for name, entry in self.comparisons.items():
+            each = entry.get("each", {})
+            inner = each.values() if isinstance(each, dict) else each
+            kind = list if isinstance(each, dict) else dict
+            if not (isinstance(each, dict | list) and all(isinstance(one, kind) for one in inner)):
+                yield f"comparisons.{name}.each: allowed is a list of cases, or lists by their key"
 
 
 @functools.cache
 def stated() -> dict[str, Stated]:
     """Every figure.yaml, checked; the figures of the paper first, by number."""
     # `shared` is code for several figures. A folder that git has emptied may still hold bytecode.
-    names = {path.name for path in FOLDER.iterdir() if any(path.glob("*.*"))}
-    contents = {}
-    for name in sorted(names - {"shared", "__pycache__"}, key=place):
-        path = _file(name)
-        if not re.fullmatch("(?!scene_)[a-z][a-z0-9_]*", name):
-            problem = "allowed are a to z, 0 to 9 and _, and not scene_ at the beginning"
-            raise reference_data.SourceError(f"{path.parent}: {problem}")
-        contents[name] = reference_data.load_yaml(path)
-        reference_data.refuse_invalid(contents[name], schema("figure"), path)
-        settings = contents[name]["settings"]
-        own, kinds = schema_of(settings), schema("config")["$defs"]
-        for kind in re.findall(r"#/\$defs/(\w+)", f"{own}"):
-            if kind not in kinds:
-                problem = f"{kind!a} is no kind of values; allowed are {', '.join(kinds)}"
-                raise reference_data.SourceError(f"{path}: settings: allowed: {problem}")
-        reference_data.refuse_invalid(values(settings), own | {"$defs": kinds}, f"{path}: settings")
-        for file in ("curves.py", "drawing.py"):
-            if not (FOLDER / name / file).is_file():
-                raise reference_data.SourceError(f"{path.parent / file}: missing")
+    folders = [*PACKAGE.glob("figures/*"), *PACKAGE.glob("studies/*")]
+    folders = [path for path in folders if any(path.glob("*.*"))]
+    contents, faults = {}, Faults()
+    for folder in sorted(folders, key=lambda folder: place(folder.name)):
+        if folder.name not in ("shared", "__pycache__"):
+            with faults:
+                contents[folder.name] = _read(folder)
+    faults.refuse()
     return contents
+
+
+def _read(folder: Path) -> Stated:
+    name, path = folder.name, file_of(folder.name)
+    if folder.parent.name != home(name):
+        raise SourceError(f"{folder}: figures/ has Figs 2 to 9, and studies/ has all others")
+    if not re.fullmatch("(?!scene_)[a-z][a-z0-9_]*", name):
+        problem = "allowed are a to z, 0 to 9 and _, and not scene_ at the beginning"
+        raise SourceError(f"{path.parent}: {problem}")
+    for file in ("curves.py", "drawing.py"):
+        if not path.with_name(file).is_file():
+            raise SourceError(f"{path.with_name(file)}: missing")
+    content = reference_data.load_yaml(path)
+    formats.read(Figure, content, path)
+    own, kinds = schema_of(content["settings"]), config_schema()["$defs"]
+    for kind in set(re.findall(r"#/\$defs/(\w+)", f"{own}")) - set(kinds):
+        problem = f"{kind!a} is no kind of values; allowed are {', '.join(kinds)}"
+        raise SourceError(f"{path}: settings: allowed: {problem}")
+    settings = values(content["settings"])
+    reference_data.refuse_invalid(settings, own | {"$defs": kinds}, f"{path}: settings")
+    return content
 
 
 def place(name: str) -> tuple[bool, int, str]:
@@ -89,18 +213,15 @@ def schema_of(settings: Mapping[str, Any]) -> dict[str, Any]:
 def comparisons() -> dict[str, dict[str, Any]]:
     """All comparisons, `{FIGURE-NAME: entry}`, each with the name of its figure."""
     entries: dict[str, dict[str, Any]] = {}
-    own = definitions()["comparison"] | {"$defs": definitions()}
     for figure, content in stated().items():
         for pattern, common in content["comparisons"].items():
-            where = f"{_file(figure)}: comparisons.{pattern}"
+            where = f"{file_of(figure)}: comparisons.{pattern}"
             for name, entry in expanded(pattern, common):
                 if placeholder := re.search(r"(?<!mathrm)\{\w*\}", f"{name} {entry}"):
-                    raise reference_data.SourceError(f"{where}: `each` has no {placeholder[0]}")
-                whole = {"figure": figure} | entry
-                reference_data.refuse_invalid(whole, own, where)
+                    raise SourceError(f"{where}: `each` has no {placeholder[0]}")
                 if f"{figure}-{name}" in entries:
-                    raise reference_data.SourceError(f"{where}: {name!a} stands twice")
-                entries[f"{figure}-{name}"] = whole
+                    raise SourceError(f"{where}: {name!a} stands twice")
+                entries[f"{figure}-{name}"] = {"figure": figure} | entry
     return entries
 
 
@@ -118,12 +239,11 @@ def expanded(name: str, entry: Mapping[str, Any]) -> Iterator[tuple[str, dict[st
     e-0.5-slip-throughout {'curve': {'model': 'lumped', 'e': 0.5}, 'regime': 'slip throughout'}
     """
     common = {key: value for key, value in entry.items() if key != "each"}
-    keys = definitions()["comparison"]["properties"]
     each = entry.get("each", {})
     if isinstance(each, dict):
         each = [dict(zip(each, case, strict=True)) for case in itertools.product(*each.values())]
     for case in each:
-        own = {key: value for key, value in case.items() if key in keys}
+        own = {key: value for key, value in case.items() if key in KEYS}
         yield _filled(name, case).replace(" ", "-"), _filled(common | own, case)
 
 
@@ -139,16 +259,21 @@ def _filled(node: Any, case: Mapping[str, Any]) -> Any:
     return node
 
 
-def definitions() -> dict[str, Any]:
-    """The `$defs` of comparisons in the schema of a config."""
-    return {key: schema("figure")["$defs"][key] for key in ("comparison", "span")}
-
-
 @functools.cache
-def schema(name: str) -> dict[str, Any]:
-    """The schema of a `config` or of a `figure`, as in workflow/schemas."""
-    return reference_data.load_yaml(PROJECT / f"workflow/schemas/{name}.schema.yaml")
+def config_schema() -> dict[str, Any]:
+    """The schema of the config, with kinds of values under `$defs`."""
+    return reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")
 
 
-def _file(figure: str) -> Path:
-    return Path(os.path.relpath(FOLDER / figure / "figure.yaml"))
+def folder_of(figure: str) -> Path:
+    """Folder of a figure.
+
+    >>> folder_of("fig5").as_posix(), folder_of("rod").as_posix()
+    ('src/stronge1994/figures/fig5', 'src/stronge1994/studies/rod')
+    """
+    return Path(os.path.relpath(PACKAGE / home(figure) / figure))
+
+
+def file_of(figure: str) -> Path:
+    """The figure.yaml of a figure."""
+    return folder_of(figure) / "figure.yaml"

@@ -50,8 +50,6 @@ class PlasticMotion(NormalMotion):
     """
 
     dashpots = False
-    # Factor of the flow in shear; 0 is Thornton's own sphere, which forgets no shear.
-    flows = law.FLOW
 
     def __init__(self, restitution: Array) -> None:
         self.restitution = restitution
@@ -73,7 +71,7 @@ class PlasticMotion(NormalMotion):
         Where all of that flows at once, springs do not load, and the body may slide only after it.
         """
         oscillation = refinement.steps_needed(beta, zeta2, self._last_share)
-        most_flow = self.flows * self._largest / self._loading.yields
+        most_flow = law.FLOW * self._largest / self._loading.yields
         return np.maximum(oscillation, np.pi * np.sqrt(most_flow / MOST_FLOW))
 
     def place(self, velocity: Array) -> Array:
@@ -116,7 +114,7 @@ class PlasticMotion(NormalMotion):
 
     def flowed(self, approach: Array) -> Array:
         """Flow in shear up to an approach in compression, see `Loading.flow`."""
-        return self.flows * self._loading.flow(np.clip(approach, 0.0, self._largest))
+        return law.FLOW * self._loading.flow(np.clip(approach, 0.0, self._largest))
 
     def force_at(self, approach: Array, velocity: Array) -> Array:
         """Normal force, shape (m,)."""
@@ -166,7 +164,7 @@ class PlasticMotion(NormalMotion):
         The largest of that at the edge, h, and that in the middle, where the spring flows most.
         """
         depth = loading.plastic_approach(velocity)
-        return np.maximum(loading.share_of_hertz(depth), loading.pull(depth, self.flows)[0])
+        return np.maximum(loading.share_of_hertz(depth), loading.pull(depth, law.FLOW)[0])
 
     def _pull_of_unloading(self) -> Array:
         """The same in unloading, where it does not change: the limit of friction falls."""
@@ -207,7 +205,7 @@ class PlasticMotion(NormalMotion):
         at_end = sliding.limit_alike(beta, zeta2 * self._pull_of_unloading(), self.restitution)
         limit = np.maximum(zeta2, at_end)
         # The pull grows to the end of loading.
-        sticks = np.flatnonzero(zeta2 * self._loading.pull(self._largest, self.flows)[0] > beta)
+        sticks = np.flatnonzero(zeta2 * self._loading.pull(self._largest, law.FLOW)[0] > beta)
         if not sticks.size:
             return limit
         loading, beta, zeta2 = self._loading.take(sticks), beta[sticks], zeta2[sticks]
@@ -215,12 +213,12 @@ class PlasticMotion(NormalMotion):
         def rise(which: Any, depth: Array) -> tuple[Array]:
             chosen = loading.take(which)
             _, v, force = chosen.at(depth)
-            pull, change = chosen.pull(depth, self.flows)
+            pull, change = chosen.pull(depth, law.FLOW)
             return (zeta2[which] * change * v**2 - force * (zeta2[which] * pull - beta[which]),)
 
         depth = roots.crossing(rise, loading.yields, loading.largest_approach())
         _, v, _ = loading.at(depth)
-        in_loading = beta - v * (beta - zeta2 * loading.pull(depth, self.flows)[0])
+        in_loading = beta - v * (beta - zeta2 * loading.pull(depth, law.FLOW)[0])
         limit[sticks] = np.maximum(limit[sticks], in_loading)
         return limit
 

@@ -26,22 +26,10 @@ X, Y = "incidence [mu v2(0)]", "velocity [mu v2(0)]"
 RUBBER: Style = {"color": house_style.GREEN, "linewidth": 1.0, "zorder": 1.9}
 SOFT_CONTINUUM = RUBBER | {"linestyle": house_style.DASHES[1]}
 POINT: Style = {"marker": "o", "markerfacecolor": "white"}
-IN_PAPER = {
-    "johnson1983/rubber_sphere": ("rubber sphere (Johnson)", POINT | {"color": house_style.BLACK})
-}
-ADDED = {
-    "chung_ooi2011/rebound": (
-        "finite elements (Chung & Ooi)",
-        POINT | {"color": house_style.VERMILLION, "marker": "s"},
-    ),
-}
+IN_PAPER = {"johnson1983/rubber_sphere": POINT | {"color": house_style.BLACK}}
+ADDED = {"chung_ooi2011/rebound": POINT | {"color": house_style.VERMILLION, "marker": "s"}}
 KHARAZ = "kharaz2001/tangential_restitution"
-SHOTS = {
-    KHARAZ: (
-        "measured (Kharaz et al.)",
-        {"color": house_style.BLUE, "marker": "o", "markersize": 3},
-    )
-}
+SHOTS: dict[str, Style] = {KHARAZ: {"color": house_style.BLUE, "marker": "o", "markersize": 3}}
 
 
 def _converted(series: Scatter) -> Scatter:
@@ -131,7 +119,7 @@ def _draw_paper(
     limit = axes.axvline(printed, label="slip throughout as printed", **house_style.PRINTED)
     added = [*lines[3:], *house_style.as_printed(axes, curves, X, Y, "Eqs 15, 25")]
     series = house_style.references(axes, points, X, Y, IN_PAPER | ADDED)
-    paper = [*lines[:3], limit, *(series.pop(name) for name in IN_PAPER)]
+    paper = [*lines[:3], limit, *(series.pop(name) for name in IN_PAPER if name in series)]
     return paper, [*added, *series.values()]
 
 

@@ -16,17 +16,9 @@ TANGENTIAL: Style = {
 # The paper draws tangential forces this many times larger, on a second axis.
 ENLARGED = 2
 WHITE: Style = {"markerfacecolor": "white"}
-SERIES = {
-    "lewis_rogers1988/normal_force": (
-        "normal, Lewis & Rogers",
-        WHITE | {"color": house_style.BLACK, "marker": "o"},
-    )
-}
+SERIES = {"lewis_rogers1988/normal_force": WHITE | {"color": house_style.BLACK, "marker": "o"}}
 ENLARGED_SERIES = {
-    "lewis_rogers1988/friction_force": (
-        "tangential, Lewis & Rogers",
-        WHITE | {"color": house_style.BLUE, "marker": "s"},
-    )
+    "lewis_rogers1988/friction_force": WHITE | {"color": house_style.BLUE, "marker": "s"}
 }
 # Stated angles of the largest tangential force: who stated it, and the pattern of its line.
 STATED = {

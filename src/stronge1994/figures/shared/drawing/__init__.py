@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style, slide
-from stronge1994.figures.shared.drawing.house_style import Points, Scatter
+from stronge1994.figures.shared.drawing.house_style import Awaited, Points, Scatter
+from stronge1994.names import home
 from stronge1994.reference_data import Series, of
 
 
@@ -24,10 +25,10 @@ def draw(
 ) -> None:
     """Draw `figure` as `svg` and `png`, and, if it has a slide, that as `light` and `dark`.
 
-    `stated` has its settings, the reference series that are not awaited, facts, and its slide.
+    `stated` has its settings, the reference series, facts, and its slide.
     `source` says in the pictures' metadata what made them.
     """
-    module = importlib.import_module(f"stronge1994.figures.{figure}.drawing")
+    module = importlib.import_module(f"stronge1994.{home(figure)}.{figure}.drawing")
     curves, points = tables.read(curves_path), references(stated["overlays"])
 
     def drawn() -> Figure:
@@ -42,12 +43,14 @@ def draw(
 def references(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
     """Series and facts as a drawing gets them, from their entries in source.yaml."""
     return {
-        name: _scatter(known) if isinstance(known := of(name, entry), Series) else known
+        name: _points(known) if isinstance(known := of(name, entry), Series) else known
         for name, entry in overlays.items()
     }
 
 
-def _scatter(series: Series) -> Scatter:
+def _points(series: Series) -> Scatter | Awaited:
+    if series.kind == "awaited":
+        return Awaited(series.legend)
     points, x, y = series.points(), series.x, series.ordinates[0]
     return Scatter(
         series.is_published,
@@ -57,4 +60,5 @@ def _scatter(series: Series) -> Scatter:
         (x.name, y.name),
         points,
         series.parameters,
+        series.legend,
     )

@@ -41,7 +41,7 @@ File: TypeAlias = str | IO[bytes]
 Style: TypeAlias = dict[str, Any]  # keywords of matplotlib
 Dashes: TypeAlias = str | tuple[float, tuple[float, ...]]  # a pattern of line
 Settings: TypeAlias = dict[str, Any]
-Points: TypeAlias = dict[str, Any]  # `Scatter`s, and `reference_data.Fact`s
+Points: TypeAlias = dict[str, Any]  # `Scatter`s, `Awaited`, and `reference_data.Fact`s
 Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
 
 
@@ -49,8 +49,8 @@ Entries: TypeAlias = list[Any]  # of a legend: artists, and containers of them
 class Scatter:
     """Points of a series as a drawing gets them, with their errors.
 
-    `axes` names the columns of both axes; `columns` is the whole table of the series, and
-    `parameters` are those of its source.
+    `axes` names the columns of both axes; `columns` is the whole table of the series, `parameters`
+    are those of its source, and `legend` is its name for readers, as source.yaml has it.
     """
 
     is_published: bool
@@ -60,11 +60,19 @@ class Scatter:
     axes: tuple[str, str]
     columns: Table
     parameters: Mapping[str, float]
+    legend: str = ""
 
     def at(self, rows: Any) -> "Scatter":
         """Some of its points."""
         x_error, y_error = (errors[rows] for errors in self.sigma)
         return replace(self, x=self.x[rows], y=self.y[rows], sigma=(x_error, y_error))
+
+
+@dataclass(frozen=True)
+class Awaited:
+    """A series of which nobody has read the points yet: its name in the legend."""
+
+    legend: str
 
 
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
@@ -263,24 +271,23 @@ def references(
     points: Points,
     x: str,
     y: str,
-    styles: Mapping[str, tuple[str, Style]] = MappingProxyType({}),
+    styles: Mapping[str, Style] = MappingProxyType({}),
 ) -> dict[str, Any]:
     """Draw all published series with the axes of a panel; entries of the legend by their names.
 
-    `styles` has label and style of some series, which come first; one of them that is awaited has
-    an entry too. Series of the printed curves have one entry.
+    `styles` has the styles of some series, which come first; one of them that is awaited has an
+    entry too. Series of the printed curves have one entry.
     """
-    entries: dict[str, Any] = {
-        name: key(f"{label}: awaited", linestyle="none") for name, (label, _) in styles.items()
-    }
+    entries: dict[str, Any] = {name: None for name in styles if name in points}
     for name, series in points.items():
-        if isinstance(series, Scatter) and series.is_published and series.axes == (x, y):
-            own = OF_PRINT if name.startswith(f"{names.STRONGE}/") else (name, POINT)
-            label, style = styles.get(name, own)
-            entries[name if name in styles else label] = measured(
-                axes, series, label=label, **style
-            )
-    return entries
+        if name in styles and isinstance(series, Awaited):
+            entries[name] = key(f"{series.legend or name}: awaited", linestyle="none")
+        elif isinstance(series, Scatter) and series.is_published and series.axes == (x, y):
+            printed = name.startswith(f"{names.STRONGE}/")
+            label, style = OF_PRINT if printed else (series.legend or name, POINT)
+            style = {"label": label} | styles.get(name, style)
+            entries[label if printed else name] = measured(axes, series, **style)
+    return {name: entry for name, entry in entries.items() if entry}
 
 
 def letter(panels: Sequence[Axes]) -> None:

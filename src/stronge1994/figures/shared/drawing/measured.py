@@ -21,7 +21,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     panels = figure.subplots(len(points), squeeze=False)[:, 0]
     entries: Entries = []
     for axes, (series_name, series) in zip(panels, points.items(), strict=True):
-        label = f"{series_name}: measured"
+        label = f"{series.legend or series_name}: measured"
         entries.append(house_style.measured(axes, series, label=label, **POINT))
         low, high = axes.get_xlim()
         lines, (x, y) = [], series.axes

@@ -1,14 +1,14 @@
 """Lines of several models of an impact, as they are compared with measured points.
 
 A colour stands for the cause of the loss: black for the normal element of the paper, purple for the
-same with e^2 zeta^2, vermillion and orange for plastic flow, blue for viscosity, green for none.
+same with e^2 zeta^2, orange for plastic flow, blue for viscosity, green for none.
 """
 
 from matplotlib.axes import Axes
 
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing.house_style import DASHES, Entries, Style
-from stronge1994.names import ELASTIC, ELASTIC_IN_SHEAR
+from stronge1994.names import ELASTIC
 from stronge1994.tables import Table
 
 # Each model's line with its marks.
@@ -23,7 +23,6 @@ STYLES: dict[str, Style] = {
         ("continuum.plastic", "continuum, plastic", house_style.ORANGE, DASHES[3], "^"),
         ("continuum.viscous", "continuum, viscous", house_style.SKY, DASHES[4], "v"),
         (ELASTIC, "elastic continuum, $e = 1$", house_style.GREEN, DASHES[1], "P"),
-        (ELASTIC_IN_SHEAR, "plastic, elastic in shear", house_style.VERMILLION, DASHES[1], "<"),
     )
 }
 POINT: Style = house_style.POINT | {"color": house_style.BLACK, "linestyle": "none"}
