@@ -64,7 +64,7 @@ REPRODUCTION = {
     "settings": "reference_data judging names",
     "versions": "planarimpact",
     "logs": "",
-    "accepted": "tables verdict_table",
+    "accepted": "tables verdict_table ledger",
     "gate": "accepted tables figure_table verdict_table ledger",
     "pages": "common bodies export tables reference_data figures studies formulas goodness judging"
     " ledger settings accepted gate versions names words figure_table verdict_table"

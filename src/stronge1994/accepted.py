@@ -8,9 +8,10 @@ nor shrink unseen. `snakemake accept` writes the table; its changes are read in 
 import math
 from collections.abc import Iterator, Sequence
 
-from stronge1994 import tables
+from stronge1994 import tables, verdict_table
+from stronge1994.ledger import outcome
 from stronge1994.tables import Row, with_unit
-from stronge1994.verdict_table import Verdict, Why, outcome, problem
+from stronge1994.verdict_table import Verdict, Why
 
 PATH = "data/accepted/verdicts.csv"
 COLUMNS = ["name", "verdict", "why", "size", "unit", "points"]
@@ -79,15 +80,16 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
             if changed := "; ".join(_changed(known[row["name"]], row)):
                 told.append(f"changed: {row['name']}: {changed}")
         elif row["verdict"] == Verdict.DIFFERS:
-            what = f"{row['name']}: {problem(full[row['name']])}"
+            what = f"{row['name']}: {verdict_table.problem(full[row['name']])}"
             told.append(f"differs, and nobody has accepted it: {what}")
     return told
 
 
 def _changed(was: Row, now: Row) -> Iterator[str]:
     """What of a row is not as accepted, in words."""
-    if outcome(was) != outcome(now):
-        yield f"{outcome(was)} -> {outcome(now)}"
+    before, after = map(verdict_table.outcome, (was, now))
+    if before != after:
+        yield f"{before} -> {after}"
     if was["points"] != now["points"]:
         yield f"points {was['points'] or 'none'} -> {now['points'] or 'none'}"
     sizes = [row["size"] and with_unit(float(row["size"]), row["unit"]) for row in (was, now)]
@@ -101,17 +103,17 @@ def _alike(was: str, now: str) -> bool:
     return was == now
 
 
-def write(verdicts: Sequence[Row], ledger: Sequence[Row]) -> None:
-    """Accept what a run has found.
-
-    No check of our solver that FAILS is accepted, nor a run whose settings are not ours.
-    """
+def refused(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[str]:
+    """Names of rows that nobody can accept: they fail, or are of a run with other settings."""
     bad = [row for row in verdicts if row["verdict"] == Verdict.FAILS or row["why"] == Why.SETTINGS]
-    bad += [row for row in ledger if row["holds"] == "no"]
-    if bad:
-        names = ", ".join(row.get("comparison") or row["entry"] for row in bad[:4])
+    return [row["comparison"] for row in bad] + [row["entry"] for row in outcome.failing(ledger)]
+
+
+def write(verdicts: Sequence[Row], ledger: Sequence[Row]) -> None:
+    """Accept what a run has found, if none of its rows is `refused`."""
+    if bad := refused(verdicts, ledger):
         raise ValueError(
             f"{len(bad)} rows cannot be accepted, as they fail or are not compared with these "
-            f"settings: {names}"
+            f"settings: {', '.join(bad[:4])}"
         )
     tables.write_rows(PATH, of_run(verdicts, ledger), COLUMNS)

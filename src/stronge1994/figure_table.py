@@ -92,11 +92,10 @@ def _printed(rows: Table) -> Iterator[Item]:
     read = rows[rows["why"] != Why.AWAITED]
     for (_, says, unit), own in read.groupby(["severity", "says", "unit"]):
         verdict, why, entry, curve = own.iloc[0][["verdict", "why", "entry", "curve"]]
-        rms = f"rms {_rms(own, unit)}" if unit else ""
-        follows = f"{says}, {rms} from the model" if says else rms
-        size = ", ".join(filter(None, [f"{len(own)} of {curves}", follows]))
-        size = size if curve else follows.removesuffix(" from the model")
-        yield Item(own["comparison"].tolist(), verdict, why, entry, "", "", "", size)
+        count = f"{len(own)} of {curves}" if curve else ""
+        size = [count, says, f"rms {_rms(own, unit)}" if unit else ""]
+        told = ", ".join(filter(None, size))
+        yield Item(own["comparison"].tolist(), verdict, why, entry, "", "", "", told)
 
 
 def _items(rows: Table) -> Iterator[Item]:

@@ -97,8 +97,7 @@ def summary(
         parts += [_filled(fault) for fault in wrong[:MOST_FAULTS]]
         more = len(wrong) - MOST_FAULTS
         parts += [f"  and {more} more: results/verdicts/, results/ledger.csv"] if more > 0 else []
-        may = any(fault.startswith(("changed", "differs", "accepted")) for fault in wrong)
-        parts += [accepted.ACCEPT] if may else []
+        parts += [] if accepted.refused(verdicts, ledger) else [accepted.ACCEPT]
     elif ledger and not others:
         found = Counter(row["verdict"] for row in verdicts)
         checks = len(verdicts) - found[Verdict.NOT_COMPARED] + len(ledger)

@@ -60,11 +60,10 @@ Fig. 7  forces; not compared: printed curve
  FAILS        Cross 2014: spin, 4 points, rms 0.02 mu v2(0)"""
 SHOWS = {"fig2": "springs", "fig6": "rebound", "fig7": "forces"}
 # Printed curves of a figure, and what is told of them.
-FOLLOWS = {"says": "the print follows Eq. 25 as printed", "entry": "eq-15"}
 PRINTS = [
     ("agrees", SIZES),
     ("not compared", LOST | {"why": Why.AWAITED}),
-    ("differs", SIZES | KNOWN | FOLLOWS),
+    ("differs", SIZES | KNOWN | {"entry": "eq-15"}),
     ("not compared", LOST | {"why": Why.SETTINGS}),
     ("agrees", SIZES | {"rms": "0.04", "points": "12"}),
     ("FAILS", SIZES | {"unit": "N"}),
@@ -72,8 +71,7 @@ PRINTS = [
 TOLD = """\
 Fig. 6  rebound
  FAILS        printed curve: 1 of 6, rms 0.02 N
- differs      printed curve: 1 of 6, the print follows Eq. 25 as printed, rms
-              0.02 mu v2(0) from the model; cause known
+ differs      printed curve: 1 of 6, rms 0.02 mu v2(0); cause known
  not compared printed curve: 1 of 6; other settings
  agrees       printed curve: 2 of 6, rms 0.036 mu v2(0)"""
 

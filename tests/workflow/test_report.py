@@ -313,7 +313,7 @@ CELLS = {
         "points": "", "reference": "cross2014/a", "why": "points awaited",
     },
     ("print", "differs", "printed figure"): {
-        "why": "cause known", "entry": "eq-25", "says": "the print follows Eq. 25",
+        "why": "cause known", "entry": "eq-25",
     },
     ("other-print", "not compared", "printed figure"): {"points": "", "why": "points awaited"},
     ("solved", "FAILS", "solver checked"): {"figure": "trade", "note": "<oh>"},
@@ -338,7 +338,7 @@ agrees Stated Maw 1976: rebound 5, stated 7° max ≤ 1 N It is so.
 passed Code Maw 1976: rebound rms 0.02, max 0.5 μv2(0); 4 points max ≤ 1 N It is so.
 not compared points awaited Other print Maw 1976: rebound max ≤ 1 N It is so."""
 ROWS = """
-Fig. 6 rebound differs 1 of 2, the print follows Eq. 25, rms 0.02 μv2(0) from the model; cause known
+Fig. 6 rebound differs 1 of 2, rms 0.02 μv2(0); cause known
 lay your copy under it differs Eq. 25, 0.03 μv2(0); the paper is wrong
 agrees peak at 7°, model 5
 FAILS Maw 1976: rebound, 16 points, rms 0.036 μv2(0) not compared Cross 2014; points awaited
