@@ -1,0 +1,44 @@
+"""Check every entry of the ledger: one row for each.
+
+This never fails: an entry whose check crashes no longer holds, with the reason in `problem`.
+"""
+
+import traceback
+from collections.abc import Iterable
+
+from stronge1994.paper import outcome
+from stronge1994.paper.entry import Entry
+from stronge1994.paper.words import CAUSES
+from stronge1994.tables import Row
+
+
+def check(entries: Iterable[Entry]) -> list[Row]:
+    """Rows of the ledger's table, by `outcome.COLUMNS`, in the order of the entries."""
+    return [_row(entry) | _outcome(entry) for entry in entries]
+
+
+def _row(entry: Entry) -> Row:
+    """What an entry says."""
+    row = dict.fromkeys(outcome.COLUMNS, "") | dict(entry.words)
+    row |= {"range": row.pop("holds"), "because": CAUSES.get(row["cause"], ""), "holds": ""}
+    row |= {"entry": entry.name, "kind": entry.kind, "where": entry.where, "says": entry.says}
+    row |= {"verdict": entry.verdict, "test": entry.test, "confirms": entry.criterion_in_words}
+    return row
+
+
+def _outcome(entry: Entry) -> Row:
+    """What its check finds, if it has one."""
+    if not entry.criterion:
+        return {}
+    try:
+        found = entry.run()
+        problem = entry.judge(found)
+    except Exception as error:
+        traceback.print_exc()
+        return {"holds": "no", "problem": f"{type(error).__name__}: {error}"}
+    return {
+        "holds": "no" if problem else "yes",
+        "found": f"{found.value:.6g}",
+        "corrected": "" if found.corrected is None else f"{found.corrected:.2g}",
+        "problem": problem,
+    }
