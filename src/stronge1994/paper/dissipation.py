@@ -215,6 +215,8 @@ def friction_of_two_slips(impact: Contact) -> tuple[ArrayLike, float]:
     r"In slip throughout $2 D_1/(m_2 v_2(0)^2)$ $= 2 \mu^2 (1 + e)$ $[v_1(0)/(\mu v_2(0)) - (1 + "
     "e) m_2/(2 m_1)]$",
     at=contact.slip_throughout,
+    holds="Eq. 41 is right in a continuum too if the material yields. If it is viscous, its shear "
+    "takes a part of the energy, and friction takes less",
 )
 def friction_of_slip_throughout(impact: Contact) -> Gaps:
     r"""Eq. 41 against the exact energy lost above $x = (1 + e) \beta$."""

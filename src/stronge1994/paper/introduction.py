@@ -39,7 +39,7 @@ def compliance_reduces() -> float:
     at=lambda: contact.PAIRS,
     only_if=r"$\omega > \Omega$",
     holds=r"This is right for $\omega > \Omega$, a condition that Summary and Conclusions leave "
-    "out",
+    "out. In a continuum that is viscous or yields, the peak changes with $e$",
 )
 def restitution_immaterial(pair: tuple[float, float]) -> Gaps:
     r"""Change of the peak of friction with $e$, $\omega > \Omega$.

@@ -282,6 +282,7 @@ entry(
     "p. 445, 1st full sentence of the text; p. 449, Conclusions, 5th sentence",
     r"With $\omega > \Omega$ friction is largest in compression",
     at=lambda: contact.PAIRS,
+    holds="In a continuum that yields, friction may be largest shortly after compression",
 )(restitution_immaterial)
 
 

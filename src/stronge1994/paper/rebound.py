@@ -187,7 +187,8 @@ entry(
     correction=r"For $e < \Omega/\omega$ the limit stays at $v_1(0)/(\mu v_2(0)) = m_2/m_1$",
     derivation="For the limit see slip-throughout-limit. The printed limit, $(1 + e) m_2/m_1$, "
     "falls with every loss.",
-    holds=r"This is right for $e > \Omega/\omega$, which is 0.588 for the paper's sphere",
+    holds=r"This is right for $e > \Omega/\omega$, which is 0.588 for the paper's sphere. In a "
+    "viscous continuum the limit falls with $e$ throughout, see slip-throughout-limit",
     reading="The sentence is judged as falling at every $e$. Read as smaller or equal, with any "
     "loss, it is true: for $e = 1$, 0.5 and 0, which the caption of Fig. 6 names, the limits are "
     "5.79, 3.5 and 3.5",
@@ -203,6 +204,8 @@ def limit_falls_with_losses() -> float:
     "compression-unaffected",
     "p. 444, Tangential velocity at separation, 11th sentence, first half",
     "Restitution has an effect only after $t_c$",
+    holds="In a continuum that is viscous or yields, the velocity changes with $e$ in compression "
+    "already",
 )
 def compression_spread() -> float:
     r"""Largest change of $v_1(t_c)/(\mu v_2(0))$ with $e$."""
@@ -230,7 +233,9 @@ def compression_spread() -> float:
     derivation="The tangential spring turns the contact point back and forth with the frequency "
     r"$\omega$, whatever $e$ is. Restitution lasts $e t_c$, and so it ends that swing at another "
     "phase for another $e$.",
-    holds=r"This is right in slip throughout, where the change is $e (m_2/m_1) \mu v_2(0)$",
+    holds=r"This is right in slip throughout, where the change is $e (m_2/m_1) \mu v_2(0)$. As $e$ "
+    "falls from 1 to 0.5, the largest reversed velocity grows by the paper's equations, and falls "
+    "in a continuum that is viscous or yields",
     reading="The sentence is judged by the tangential velocity at all incidences, of which p. 444 "
     "speaks. For the normal velocity the sentence is right",
 )

@@ -181,7 +181,9 @@ def rebound_after_stick(impact: Contact) -> Gaps:
     "smaller $e$ it falls below $m_2/m_1$, to 2.83 for the paper's sphere at $e = 0.5$. So the "
     "book (W. J. Stronge, Impact Mechanics, Cambridge University Press, 2000; 2nd edition 2018) "
     "may have corrected the limit. We have not seen it.",
-    holds=r"The printed limit is right for $e = 0$, and as $\zeta^2 \to 0$",
+    holds=r"The printed limit is right for $e = 0$, and as $\zeta^2 \to 0$. In a continuum that "
+    r"loses energy in a viscous material the limit is $m_2/m_1 + e (m_2/m_1 - \zeta^2)$, 4.645 for "
+    "the paper's sphere at $e = 0.5$, as `planarimpact.common.sliding` derives",
     reading="The headings of pp. 441 and 445 state the range. The sentences on pp. 443 and 445 "
     "say what happens in it. Eqs 17 to 20 contradict them, and so does Eq. 21 as it is read here, "
     "see eq-21. That slip does not end above $(1 + e) m_2/m_1$ is true: the headings of Eqs 26 "
