@@ -42,14 +42,6 @@ def _normal(impact: Contact) -> float:
     return impact.m2 * impact.v2**2 / 2
 
 
-def eq_36(c: Contact) -> float:
-    return (1 - c.restitution**2) * c.m2 * c.v2**2 / 2
-
-
-def eq_37(c: Contact) -> float:
-    return 1 - c.restitution**2
-
-
 @entry(
     "eq-36",
     "p. 448, Eq. 36",
@@ -69,8 +61,9 @@ def hysteresis(motion: NormalMotion) -> Gaps:
     """Eqs 36 and 37 against the normal kinetic energy that the exact contact loses."""
     kinetic = _normal(motion)
     lost = kinetic - motion.m2 * motion.velocity[-1] ** 2 / 2
-    yield (eq_36(motion) - lost) / kinetic
-    yield eq_37(motion) - lost / kinetic
+    share = 1 - motion.restitution**2
+    yield (share * motion.m2 * motion.v2**2 / 2 - lost) / kinetic
+    yield share - lost / kinetic
 
 
 def _tangential(impact: Contact) -> float:

@@ -65,10 +65,6 @@ def effective_masses() -> float:
     return largest([masses / bodies.effective_masses(BODY) - 1, free - 1])
 
 
-def eq_3(inverse_mass: ArrayLike, impulse: ArrayLike) -> Array:
-    return np.asarray(inverse_mass) @ np.asarray(impulse)
-
-
 @entry(
     "eq-03",
     "p. 437, Eq. 3",
@@ -78,9 +74,8 @@ def eq_3(inverse_mass: ArrayLike, impulse: ArrayLike) -> Array:
 def velocity_change(impact: Contact) -> Gaps:
     """Eq. 3 against a free rigid body; along contacts $m_1 dv_1$ is the impulse of friction."""
     impulse = np.array([0.3, 1.1])
-    yield eq_3(eq_1(**PLATE), impulse) - _change_of_velocity(impulse, **PLATE)
-    of_friction = impact.integral(impact.path.force_1)
-    change = eq_3([[1 / impact.m1]], [of_friction])[0]
+    yield eq_1(**PLATE) @ impulse - _change_of_velocity(impulse, **PLATE)
+    change = 1 / impact.m1 * impact.integral(impact.path.force_1)
     yield (impact.v1 + change - impact.path.v1) / impact.velocity_scale
 
 
@@ -105,11 +100,6 @@ entry(
 )
 
 
-def eq_4(c: Contact) -> tuple[Array, Array]:
-    """Omega and omega."""
-    return np.sqrt(c.stiffness / c.m2), np.sqrt(c.stiffness / (c.stiffness_ratio * c.m1))
-
-
 @entry(
     "eq-04",
     "p. 438, Eq. 4",
@@ -118,16 +108,13 @@ def eq_4(c: Contact) -> tuple[Array, Array]:
 )
 def frequencies(impact: Contact) -> Gaps:
     r"""Eq. 4: compression takes up the normal momentum in $t_c$; stick swings with $\omega$."""
-    normal, tangential = eq_4(impact)
+    normal = np.sqrt(impact.stiffness / impact.m2)
+    tangential = np.sqrt(impact.stiffness / (impact.stiffness_ratio * impact.m1))
     top = impact.top
     impulse = impact.integral(impact.path.force_2)[impact.path.t == top.t]
     yield impulse / impact.compression_impulse - 1
     yield top.t * normal / (np.pi / 2) - 1
     yield top.v1 / impact.v1 - np.cos(tangential * top.t)
-
-
-def eq_5(absorbed: Numbers, returned: Numbers) -> Array:
-    return np.sqrt(-returned / absorbed)
 
 
 @entry(
@@ -140,14 +127,16 @@ def eq_5(absorbed: Numbers, returned: Numbers) -> Array:
 def restitution(motion: NormalMotion) -> Gaps:
     """Eq. 5: works of the normal force along exact contacts give $e$ back."""
     absorbed = motion.work[motion.at_top]
-    yield eq_5(absorbed, motion.work[-1] - absorbed) - motion.restitution
+    yield np.sqrt(-(motion.work[-1] - absorbed) / absorbed) - motion.restitution
 
 
 def eq_6a(c: Contact, t: Numbers) -> Array:
+    """v2 in compression."""
     return c.v2 * cos(c.normal_frequency * t)
 
 
 def eq_6b(c: Contact, t: Numbers) -> Array:
+    """v2 in restitution."""
     return c.restitution * c.v2 * cos(_angle(c, t))
 
 
@@ -203,6 +192,11 @@ def eq_7a(c: Contact, elapsed: Array) -> Array:
     return c.u1_t2 * cos(angle) - c.v1_t2 * sin(angle) / c.tangential_frequency
 
 
+def eq_7b(c: Contact, elapsed: Array) -> Array:
+    """v1 at t2 + elapsed."""
+    return c.printed(eq_7b_velocity, elapsed=elapsed, u1=c.u1_t2, v1=c.v1_t2)
+
+
 def eq_7c(c: Contact, elapsed: Array) -> Array:
     """F1 at t2 + elapsed."""
     angle, pull = c.tangential_frequency * elapsed, c.m1 * c.tangential_frequency
@@ -219,15 +213,9 @@ def stick(impact: Contact) -> Gaps:
     """Eqs 7a to 7c along the first stick of exact contacts."""
     path, omega = impact.between(impact.t2, impact.t3), impact.tangential_frequency
     elapsed = path.t - impact.t2
-    v1 = impact.printed(eq_7b_velocity, elapsed=elapsed, u1=impact.u1_t2, v1=impact.v1_t2)
     yield (eq_7a(impact, elapsed) - path.u1) * omega / impact.velocity_scale
-    yield (v1 - path.v1) / impact.velocity_scale
+    yield (eq_7b(impact, elapsed) - path.v1) / impact.velocity_scale
     yield (eq_7c(impact, elapsed) - path.force_1) / impact.friction_scale
-
-
-def eq_8(c: Contact, normal: Array) -> Array:
-    """Impulse of friction, from that of the normal force."""
-    return -c.friction * c.slip_direction * normal
 
 
 @entry(
@@ -239,14 +227,10 @@ def eq_8(c: Contact, normal: Array) -> Array:
 def slip_force(impact: Contact) -> Gaps:
     """Eq. 8 along the last slip, with $s$ from the velocity of the particle."""
     path = impact.between(impact.t3, impact.end.t)
-    yield (eq_8(impact, path.force_2) - path.force_1) / impact.friction_scale
+    printed = -impact.friction * impact.slip_direction * path.force_2
+    yield (printed - path.force_1) / impact.friction_scale
     slipped = path.v1[:-1] * np.diff(path.t) + np.diff(path.u1)
     yield np.minimum(impact.slip_direction * np.sum(slipped), 0.0)
-
-
-def eq_9(c: Contact) -> Array:
-    """dv/dp in slip."""
-    return np.diag([1 / c.m1, 1 / c.m2]) @ [-c.friction * c.slip_direction, 1.0]
 
 
 @entry(
@@ -259,7 +243,8 @@ def velocity_slope(impact: Contact) -> Gaps:
     """Eq. 9 along the last slip: $dv_1/dp$, with $p(t)$ of Table 1."""
     path = impact.between(impact.t3, impact.end.t)
     impulse = impact.impulse(path.t) - impact.impulse(path.t[0])
-    slope = eq_9(impact)
+    slope = np.diag([1 / impact.m1, 1 / impact.m2])
+    slope = slope @ [-impact.friction * impact.slip_direction, 1.0]
     yield (path.v1[0] + slope[0] * impulse - path.v1) / impact.velocity_scale
     v2 = table_1_velocity(impact, path.t)
     yield (slope[1] * impulse[-1] - (v2[-1] - v2[0])) / impact.v2

@@ -104,15 +104,6 @@ def normal(impact: Contact) -> Gaps:
     yield (impact.printed(eq_28_normal) - exact) / impact.friction
 
 
-def eq_29(c: Contact) -> Array:
-    return -c.tangential_frequency * c.m1 * c.v1
-
-
-def eq_30(c: Contact) -> Array:
-    slope = c.slope * eq_28_normal(c.slope)
-    return np.sqrt(1 / (c.stiffness_ratio * c.mass_ratio)) * slope
-
-
 def _gap(impact: Contact, printed: Numbers) -> Array:
     """Distance of a printed F1max/(m2 Omega S) from the exact peak of friction, in mu."""
     peak = impact.rebound.peak_friction * impact.friction_scale
@@ -136,8 +127,9 @@ def _gap(impact: Contact, printed: Numbers) -> Array:
 def stick(impact: Contact) -> Gaps:
     """Eqs 29 and 30 against the exact peak of friction, initial stick."""
     peak = impact.rebound.peak_friction * impact.friction_scale
-    yield eq_29(impact) / peak - 1
-    yield _gap(impact, eq_30(impact))
+    yield -impact.tangential_frequency * impact.m1 * impact.v1 / peak - 1
+    slope = impact.slope * eq_28_normal(impact.slope)
+    yield _gap(impact, np.sqrt(1 / (impact.stiffness_ratio * impact.mass_ratio)) * slope)
 
 
 @entry(
@@ -203,17 +195,6 @@ def slip_throughout(impact: Contact) -> Gaps:
     yield _gap(impact, impact.printed(eq_33_friction))
 
 
-def eq_34(slope: float, friction: float, mass_ratio: float) -> Array:
-    """F1max/(m2 Omega S) without tangential compliance, where slip halts in compression."""
-    angle = np.arccos(1 - slope / (friction * mass_ratio))
-    return friction * np.sin(angle) * eq_28_normal(slope)
-
-
-def eq_35(slope: float, friction: float) -> Array:
-    """The same, where it still slides at maximum compression."""
-    return friction * eq_28_normal(slope)
-
-
 @entry(
     "eq-34",
     "p. 446, Eq. 34",
@@ -245,9 +226,9 @@ def rigid_limit(shares: Sequence[float]) -> float:
     squared, gaps = CubicSpline(impulse, force**2), []
     for (beta, _), share in product(contact.PAIRS, shares):
         slope = motion.friction * share * beta
-        early = share < 1
-        own = slope, motion.friction
-        printed = eq_34(*own, beta) if early else eq_35(*own)
+        printed = motion.friction * eq_28_normal(slope)
+        if share < 1:
+            printed *= np.sin(np.arccos(1 - slope / (motion.friction * beta)))
         halted = squared(min(share, 1)) ** 0.5
         for exact in (halted, rigid.rebound(share * beta, beta).peak_friction):
             gaps.append(printed / motion.friction - exact * eq_28_normal(slope))

@@ -6,12 +6,12 @@ from itertools import product
 import numpy as np
 from numpy import cos, sin
 
-from planarimpact import bodies, continuum, lumped, rigid
+from planarimpact import bodies, lumped, rigid
 from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from planarimpact.common.results import Regime
 from stronge1994.paper import contact
 from stronge1994.paper.contact import HARD, INCIDENCE, Contact, Gaps, State, boundary
-from stronge1994.paper.dynamics import eq_7c
+from stronge1994.paper.dynamics import eq_7b, eq_7c
 from stronge1994.paper.entry import entry, largest
 from stronge1994.paper.introduction import annulus_slips
 from stronge1994.printed import equations
@@ -28,21 +28,6 @@ def _sine(c: Contact, t: Numbers) -> Array:
     return np.where(early, sin(c.normal_frequency * t), sin(_angle(c, t)))
 
 
-def _eq_10(c: Contact, t1: Numbers, normal: Numbers) -> Array:
-    swing = c.normal_frequency / c.tangential_frequency * sin(c.tangential_frequency * t1)
-    return np.abs(c.incidence * swing / (c.stiffness_ratio * normal))
-
-
-def eq_10a(c: Contact, t1: Numbers) -> Array:
-    r"""|F1|/(mu F2) of initial stick in compression; stick ends where it reaches 1."""
-    return _eq_10(c, t1, sin(c.normal_frequency * t1))
-
-
-def eq_10b(c: Contact, t1: Numbers) -> Array:
-    """The same in restitution."""
-    return _eq_10(c, t1, sin(_angle(c, t1)))
-
-
 @entry(
     "eq-10",
     "p. 440, Eqs 10a, 10b",
@@ -55,16 +40,16 @@ def eq_10b(c: Contact, t1: Numbers) -> Array:
 )
 def force_ratio(impact: Contact) -> Gaps:
     r"""Eqs 10a and 10b at the exact onset of slip: $|F_1| = \mu F_2$, and less before."""
-    t = impact.between(0.0, impact.t1).t[1:-1]
-    early = t <= impact.compression_time
-    yield np.maximum(eq_10a(impact, t[early]) - 1, 0)
-    yield np.maximum(eq_10b(impact, t[~early]) - 1, 0)
+    omega, zeta2 = impact.tangential_frequency, impact.stiffness_ratio
+
+    def printed(t1: Array) -> Array:
+        """The left side over the right one."""
+        swing = impact.normal_frequency / omega * sin(omega * t1)
+        return np.abs(impact.incidence * swing / (zeta2 * _sine(impact, t1)))
+
+    yield np.maximum(printed(impact.between(0.0, impact.t1).t[1:-1]) - 1, 0)
     reached = np.abs(impact.onset.force_1) / (impact.friction * impact.onset.force_2)
-    yield eq_10b(impact, impact.t1) / reached - 1
-
-
-def eq_11(friction: Numbers, stiffness_ratio: Numbers) -> Numbers:
-    return friction * stiffness_ratio
+    yield printed(impact.t1) / reached - 1
 
 
 @entry(
@@ -82,7 +67,7 @@ def initial_stick_limit(pair: tuple[float, float]) -> Gaps:
         1e-3 * zeta2,
         2 * zeta2,
     )
-    yield limit * Contact.friction / eq_11(Contact.friction, zeta2) - 1
+    yield limit * Contact.friction / (Contact.friction * zeta2) - 1
 
 
 @entry(
@@ -96,10 +81,6 @@ def velocity_at_slip(impact: Contact) -> Gaps:
     yield (impact.printed(equations.eq_12_velocity_at_slip) - impact.v1_t1) / impact.velocity_scale
 
 
-def eq_13(c: Contact) -> Array:
-    return c.v1_t1 - c.friction * c.slip_direction / c.m1 * c.impulse_left
-
-
 @entry(
     "eq-13",
     "p. 440, Eq. 13",
@@ -109,11 +90,8 @@ def eq_13(c: Contact) -> Array:
 )
 def final_velocity(impact: Contact) -> Gaps:
     """Eq. 13 after initial stick, with $s$ as it is at the onset of slip."""
-    yield (eq_13(impact) - impact.final) / impact.velocity_scale
-
-
-def eq_14(c: Contact) -> Array:
-    return -c.g1 * c.m2 * c.v2
+    change = impact.friction * impact.slip_direction / impact.m1 * impact.impulse_left
+    yield (impact.v1_t1 - change - impact.final) / impact.velocity_scale
 
 
 @entry(
@@ -128,7 +106,7 @@ def eq_14(c: Contact) -> Array:
 def impulse_left(impact: Contact) -> Gaps:
     """Eq. 14 and $g_1$: the impulse after $t_1$ from the momentum at separation."""
     change = abs(impact.final - impact.v1_t1) * impact.m1 / impact.friction
-    yield (eq_14(impact) - change) / impact.compression_impulse
+    yield (-impact.g1 * impact.m2 * impact.v2 - change) / impact.compression_impulse
 
 
 @entry(
@@ -206,10 +184,6 @@ def slip_throughout_limit(place: tuple[tuple[float, float], float]) -> tuple[Arr
     return equations.slip_throughout_limit(beta, e) - exact, beta + max(0.0, later) - exact
 
 
-def eq_16(c: Contact, impulse: Array) -> Array:
-    return c.v1 + c.friction * impulse / c.m1  # s = -1
-
-
 @entry(
     "eq-16",
     "p. 441, Eq. 16",
@@ -219,12 +193,8 @@ def eq_16(c: Contact, impulse: Array) -> Array:
 def velocity_in_slip(impact: Contact) -> Gaps:
     """Eq. 16 along the first slip."""
     path = impact.between(0.0, impact.t2)
-    yield (eq_16(impact, impact.impulse(path.t)) - path.v1) / impact.velocity_scale
-
-
-def eq_17(c: Contact, force_1_rate: Numbers, force_2_rate: Numbers) -> Numbers:
-    """dF1/dt - mu dF2/dt, which vanishes where stick begins."""
-    return force_1_rate - c.friction * force_2_rate
+    printed = impact.v1 + impact.friction * impact.impulse(path.t) / impact.m1  # s = -1
+    yield (printed - path.v1) / impact.velocity_scale
 
 
 @entry(
@@ -236,7 +206,7 @@ def eq_17(c: Contact, force_1_rate: Numbers, force_2_rate: Numbers) -> Numbers:
 )
 def transition(impact: Contact) -> Gaps:
     """Eq. 17 where the exact contact starts to stick: both forces have one rate."""
-    excess = eq_17(impact, force_rate(impact, 0.0), eq_20(impact, impact.t2))
+    excess = force_rate(impact, 0.0) - impact.friction * eq_20(impact, impact.t2)
     yield excess / (impact.friction_scale * impact.normal_frequency)
 
 
@@ -269,12 +239,6 @@ def stick_force_rate(impact: Contact) -> Gaps:
     yield (change - (end.force_1 - start.force_1)) / impact.force_scale
 
 
-def eq_18(c: Contact) -> Array:
-    """u1(t2), with the sign that F1 = (kappa/zeta^2) u1 asks for."""
-    scale = c.m2 * c.normal_frequency * c.v2 / (c.m1 * c.tangential_frequency**2)
-    return -c.friction * scale * _sine(c, c.t2)
-
-
 @entry(
     "eq-18",
     "p. 442, Eqs 18a, 18b",
@@ -288,7 +252,11 @@ def eq_18(c: Contact) -> Array:
 )
 def deflection_at_stick(impact: Contact) -> Gaps:
     """Eqs 18a and 18b at the exact start of stick."""
-    yield (eq_18(impact) - impact.u1_t2) * impact.normal_frequency / impact.velocity_scale
+    # With the sign that F1 = (kappa/zeta^2) u1 asks for.
+    scale = impact.m2 * impact.normal_frequency * impact.v2
+    scale = scale / (impact.m1 * impact.tangential_frequency**2)
+    printed = -impact.friction * scale * _sine(impact, impact.t2)
+    yield (printed - impact.u1_t2) * impact.normal_frequency / impact.velocity_scale
 
 
 @entry(
@@ -328,15 +296,6 @@ def normal_force_rate(impact: Contact) -> Gaps:
         yield (change - (end.force_2 - start.force_2)) / impact.force_scale
 
 
-def eq_21(c: Contact) -> Array:
-    """The incidence whose first slip ends at t2."""
-    late = c.t2 > c.compression_time
-    e, cosine = (
-        (c.restitution, cos(_angle(c, c.t2))) if late else (1.0, cos(c.normal_frequency * c.t2))
-    )
-    return c.mass_ratio * (1 - e * cosine) + c.stiffness_ratio / e * cosine
-
-
 @entry(
     "eq-21",
     "p. 443, Eq. 21",
@@ -351,17 +310,11 @@ def eq_21(c: Contact) -> Array:
 )
 def end_of_first_slip(impact: Contact) -> Gaps:
     """Eq. 21 at the exact start of stick gives the incidence back."""
-    yield eq_21(impact) / impact.incidence - 1
-
-
-def eq_22a(c: Contact, elapsed: Array) -> Array:
-    """v1 at t2 + elapsed, by Eq. 7b."""
-    return c.printed(equations.eq_7b_velocity, elapsed=elapsed, u1=c.u1_t2, v1=c.v1_t2)
-
-
-def eq_22b(c: Contact, elapsed: Array) -> Array:
-    """F1 at t2 + elapsed, by Eq. 7c."""
-    return eq_7c(c, elapsed)
+    late = impact.t2 > impact.compression_time
+    angle = _angle(impact, impact.t2) if late else impact.normal_frequency * impact.t2
+    e = impact.restitution if late else 1.0
+    printed = impact.mass_ratio * (1 - e * cos(angle)) + impact.stiffness_ratio / e * cos(angle)
+    yield printed / impact.incidence - 1
 
 
 @entry(
@@ -374,16 +327,8 @@ def second_stick(impact: Contact) -> Gaps:
     """Eqs 22a and 22b along the stick of the exact contact."""
     path = impact.between(impact.t2, impact.t3)
     elapsed = path.t - impact.t2
-    yield (eq_22a(impact, elapsed) - path.v1) / impact.velocity_scale
-    yield (eq_22b(impact, elapsed) - path.force_1) / impact.friction_scale
-
-
-def eq_23(c: Contact) -> tuple[Array, Array]:
-    """Both sides at t3; they are equal for slip with s = +1."""
-    angle, omega = c.tangential_frequency * (c.t3 - c.t2), c.normal_frequency
-    stretch = omega * c.u1_t2 / (c.friction * c.v2) * cos(angle)
-    swing = omega * c.v1_t2 / (c.tangential_frequency * c.friction * c.v2) * sin(angle)
-    return stretch - swing, c.stiffness_ratio * sin(_angle(c, c.t3))
+    yield (eq_7b(impact, elapsed) - path.v1) / impact.velocity_scale
+    yield (eq_7c(impact, elapsed) - path.force_1) / impact.friction_scale
 
 
 @entry(
@@ -403,8 +348,12 @@ def eq_23(c: Contact) -> tuple[Array, Array]:
 )
 def onset_of_second_slip(impact: Contact) -> Gaps:
     """Eq. 23 at the exact onset of the last slip, where that reverses ($s = +1$)."""
-    left, right = eq_23(impact)
-    yield left - right
+    angle = impact.tangential_frequency * (impact.t3 - impact.t2)
+    scale, omega = impact.friction * impact.v2, impact.tangential_frequency
+    stretch = impact.normal_frequency * impact.u1_t2 / scale * cos(angle)
+    swing = impact.normal_frequency * impact.v1_t2 / (omega * impact.friction * impact.v2)
+    swing = swing * sin(angle)
+    yield stretch - swing - impact.stiffness_ratio * sin(_angle(impact, impact.t3))
 
 
 def eq_24(c: Contact) -> Array:
@@ -448,10 +397,6 @@ def rebound_after_second_slip(impact: Contact) -> Gaps:
     yield printed - impact.final / scale
 
 
-def eq_26(c: Contact) -> Numbers:
-    return c.v1 + c.friction / c.m1 * (1 + c.restitution) * c.compression_impulse
-
-
 @entry(
     "eq-26",
     "p. 443, Eq. 26",
@@ -472,7 +417,8 @@ def eq_26(c: Contact) -> Numbers:
 def rebound_after_slip_throughout(impact: Contact) -> Gaps:
     r"""Eqs 26 and 27 against the exact rebound above $x = (1 + e) \beta$."""
     scale = impact.velocity_scale
-    yield (eq_26(impact) - impact.final) / scale
+    printed = (1 + impact.restitution) * impact.compression_impulse
+    yield (impact.v1 + impact.friction / impact.m1 * printed - impact.final) / scale
     yield impact.printed(equations.eq_27_rebound) - impact.final / scale
 
 
