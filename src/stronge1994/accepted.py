@@ -8,8 +8,7 @@ nor shrink unseen. `snakemake accept` writes the table; its changes are read in 
 import math
 from collections.abc import Iterator, Sequence
 
-from stronge1994 import tables, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import ledger_table, tables, verdict_table
 from stronge1994.tables import Row, with_unit
 from stronge1994.verdict_table import Verdict, Why
 
@@ -106,7 +105,9 @@ def _alike(was: str, now: str) -> bool:
 def refused(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[str]:
     """Names of rows that nobody can accept: they fail, or are of a run with other settings."""
     bad = [row for row in verdicts if row["verdict"] == Verdict.FAILS or row["why"] == Why.SETTINGS]
-    return [row["comparison"] for row in bad] + [row["entry"] for row in outcome.failing(ledger)]
+    return [row["comparison"] for row in bad] + [
+        row["entry"] for row in ledger_table.failing(ledger)
+    ]
 
 
 def write(verdicts: Sequence[Row], ledger: Sequence[Row]) -> None:

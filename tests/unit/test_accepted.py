@@ -2,15 +2,14 @@
 
 import pytest
 
-from stronge1994 import accepted, tables, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import accepted, ledger_table, tables, verdict_table
 
 ROW = dict.fromkeys(verdict_table.COLUMNS, "") | {
     "figure": "fig6", "comparison": "fig6-far", "verdict": "differs", "why": "cause known",
     "points": "5", "size": "0.15", "unit": "N", "rms": "0.15", "max": "0.2",
     "allowed": "max <= 0.1 N",
 }  # fmt: skip
-ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {
+ENTRY = dict.fromkeys(ledger_table.COLUMNS, "") | {
     "entry": "eq-25", "verdict": "wrong", "holds": "yes", "found": "3.5",
 }  # fmt: skip
 NOT_JUDGED = {"verdict": "not compared", "why": "other settings", "size": "", "points": ""}

@@ -2,15 +2,18 @@
 
 import pytest
 
-from stronge1994 import accepted, gate, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import accepted, gate, ledger_table, verdict_table
 
 VERDICT = {
     **dict.fromkeys(verdict_table.COLUMNS, ""),
     "figure": "fig6", "comparison": "fig6-rebound", "group": "others", "verdict": "agrees",
     "reference": "a/b", "points": 5, "rms": 0.1, "max": 0.2, "unit": "N", "allowed": "max <= 1 N",
 }  # fmt: skip
-ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {"entry": "eq-25", "verdict": "wrong", "holds": "yes"}
+ENTRY = dict.fromkeys(ledger_table.COLUMNS, "") | {
+    "entry": "eq-25",
+    "verdict": "wrong",
+    "holds": "yes",
+}
 
 
 @pytest.mark.parametrize(

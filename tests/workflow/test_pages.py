@@ -219,10 +219,10 @@ def test_the_filter_of_the_ledger_works_by_keyboard_on_a_phone(figures, tab):
     tab.page.focus("[name=words]")
     tab.press("Tab")
     tab.page.keyboard.type("wrong")
-    wrong = [name for name in every if ledger()[name]["verdict"] == "wrong"]
+    wrong = [name for name in every if ledger()[name].verdict == "wrong"]
     assert tab.evaluate(SHOWN) == wrong
     tab.page.select_option("[name=page]", "443")
-    of_page = [name for name in wrong if "443" in ledger()[name]["where"]]
+    of_page = [name for name in wrong if "443" in ledger()[name].where]
     assert tab.evaluate(SHOWN) == of_page
     tab.page.fill("[name=words]", "Three PHASES")
     assert tab.evaluate(SHOWN) == ["three-sequences"]

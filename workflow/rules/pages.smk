@@ -47,8 +47,6 @@ rule report:
             "sources": SOURCES,
             "stated": STATED,
             "overlays": OVERLAYS,
-            "symbols": reference_data.load_yaml(LEDGER)["symbols"],
-            "impacts": {name: entry["explorer"] for name, entry in OF_LEDGER.items() if "explorer" in entry},
             "rows": rows_of(JUDGED),
             "entries": ENTRIES,
         },

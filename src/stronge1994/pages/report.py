@@ -13,12 +13,20 @@ from typing import Any, TypeAlias
 import pandas as pd
 from markupsafe import Markup
 
-from stronge1994 import accepted, figure_table, gate, tables, verdict_table, versions, words
+from stronge1994 import (
+    accepted,
+    figure_table,
+    gate,
+    ledger_table,
+    tables,
+    verdict_table,
+    versions,
+    words,
+)
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import DOUBT, LARGEST_ERROR
-from stronge1994.ledger import outcome
 from stronge1994.names import home, is_of_paper
 from stronge1994.pages import (
     key_numbers,
@@ -64,8 +72,8 @@ def page(values: TemplateValues) -> str:
     table = values["table"]
     return environment.get_template("report.html").render(
         values,
-        lapsed=outcome.failing(values["ledger"]),
-        grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
+        lapsed=ledger_table.failing(values["ledger"]),
+        grave=[row for row in values["ledger"] if row["grade"] == next(iter(ledger_table.GRADES))],
         unmade=gate.unmade(verdicts),
         in_paper=[row for row in table if is_of_paper(row.figure)],
         beyond=[row for row in table if not is_of_paper(row.figure) and row.others],
@@ -173,8 +181,6 @@ def write(
     sources: Mapping[str, Any],
     stated: Mapping[str, Mapping[str, Any]],
     overlays: Mapping[str, str],
-    symbols: str,
-    impacts: Mapping[str, Any],
     rows: Collection[str],
     entries: Collection[str],
 ) -> None:
@@ -182,8 +188,7 @@ def write(
 
     `shows` and `captions` are those of the figures, `slides` names those that have one. `sources`
     holds data/*/source.yaml, `stated` the series of which the note states numbers, and `overlays`
-    pictures of prints by series. `symbols` and `impacts` are those of the ledger; `rows` and
-    `entries` are as in `gate.faults`.
+    pictures of prints by series. `rows` and `entries` are as in `gate.faults`.
     """
     verdicts = verdict_table.gather([given.verdicts])
     ledger, measures = map(tables.read_rows, (given.ledger, given.in_nature))
@@ -226,7 +231,7 @@ def write(
         made.report: page(values),
         made.sources: sources_page.page(sources, config, run),
         made.note: note.page(numbers, table, pictures),
-        made.ledger: ledger_page.page(ledger, symbols, impacts),
+        made.ledger: ledger_page.page(ledger),
     }
     for path, text in pages.items():
         Path(path).write_text(text, encoding="utf-8")

@@ -6,20 +6,20 @@ This never fails: an entry whose check crashes no longer holds, with the reason 
 import traceback
 from collections.abc import Iterable
 
-from stronge1994.paper import outcome
+from stronge1994 import ledger_table
 from stronge1994.paper.entry import Entry
 from stronge1994.paper.words import CAUSES
 from stronge1994.tables import Row
 
 
 def check(entries: Iterable[Entry]) -> list[Row]:
-    """Rows of the ledger's table, by `outcome.COLUMNS`, in the order of the entries."""
+    """Rows of the ledger's table, by `ledger_table.COLUMNS`, in the order of the entries."""
     return [_row(entry) | _outcome(entry) for entry in entries]
 
 
 def _row(entry: Entry) -> Row:
     """What an entry says."""
-    row = dict.fromkeys(outcome.COLUMNS, "") | dict(entry.words)
+    row = dict.fromkeys(ledger_table.COLUMNS, "") | dict(entry.words)
     row |= {"range": row.pop("holds"), "because": CAUSES.get(row["cause"], ""), "holds": ""}
     row |= {"entry": entry.name, "kind": entry.kind, "where": entry.where, "says": entry.says}
     row |= {"verdict": entry.verdict, "test": entry.test, "confirms": entry.criterion_in_words}

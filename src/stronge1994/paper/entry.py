@@ -19,6 +19,7 @@ from typing import Any, Literal, NamedTuple, TypeVar, get_args
 import numpy as np
 
 from planarimpact.common.arrays import ArrayLike
+from stronge1994.ledger_table import GRADES
 from stronge1994.paper.words import CAUSES
 
 # Numbers nearer than this are equal. It leaves room for the rounding of a few hundred operations,
@@ -27,12 +28,6 @@ EXACT = 1e-9
 
 Verdict = Literal["confirmed", "confirmed within rounding", "wrong", "not testable"]
 CONFIRMED, ROUNDED, WRONG, NOT_TESTABLE = VERDICTS = get_args(Verdict)
-# Grades of wrong entries, the gravest first, each with a text to stand after its number.
-GRADES = {
-    "changes a result": "change a result",
-    "sign or misprint": "are signs or misprints (perhaps the scan's)",
-    "matter of judgement": "are matters of judgement",
-}
 VIEWS = ("velocity", "forces", "energy")
 EQUATION = re.compile(r"(eq|formula|table)-")
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
@@ -228,7 +223,7 @@ def entry(
         test = " ".join((inspect.getdoc(check) or "").split())
         for key, argument in made.given.items():
             test = test.replace(f"{{{key}}}", str(argument).strip("[]"))
-        LEDGER[name] = replace(made, check=_finding_of(check, at), test=test)
+        LEDGER[name] = replace(made, check=finding_of(check, at), test=test)
         return check
 
     return record
@@ -272,7 +267,7 @@ def _faults(made: Entry, criterion: Mapping[str, Any]) -> Iterable[str]:
         yield "a bound is a finite number"
 
 
-def _finding_of(
+def finding_of(
     check: Callable[..., Any], at: Callable[[], Iterable[Any]] | None
 ) -> Callable[..., Finding]:
     """The check as a function that returns a `Finding`, whatever it is like: see `entry`."""

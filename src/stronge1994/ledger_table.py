@@ -4,9 +4,14 @@ import textwrap
 from collections import Counter
 from collections.abc import Sequence
 
-from stronge1994.paper.entry import GRADES
 from stronge1994.tables import Row
 
+# Grades of wrong entries, the gravest first, each with a text to stand after its number.
+GRADES = {
+    "changes a result": "change a result",
+    "sign or misprint": "are signs or misprints (perhaps the scan's)",
+    "matter of judgement": "are matters of judgement",
+}
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "only_if", "grade", "cause", "where", "says", "test",
     "found", "confirms", "corrected", "problem", "reading", "range", "correction",
