@@ -16,7 +16,7 @@ from typing import Any
 from stronge1994.paper.entry import LEDGER, REFERENCE, Entry, EntryError
 from stronge1994.paper.words import CAUSES, SYMBOLS
 
-__all__ = ["SECTIONS", "SYMBOLS", "Entry", "EntryError", "entries"]
+__all__ = ["CAUSES", "SECTIONS", "SYMBOLS", "Entry", "EntryError", "entries"]
 
 # Each module has the entries of one section, and imports none of a later one.
 SECTIONS = (
