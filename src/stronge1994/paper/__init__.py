@@ -3,9 +3,10 @@
 Each entry stands beside its check, which compares one statement of the paper, as printed, with the
 paper's own model and returns a number. The model is solved to rounding by `planarimpact.lumped`:
 "exact" means that solution, not nature. How an entry is made says `entry.entry`. `SECTIONS` follow
-the paper; `words` has symbols and causes, `contact` solves. What is printed stands beside the entry
-that checks it, as a function `eq_...`, or in `stronge1994.printed` if figures draw it. A run checks
-every entry (`checking`), and fails if a recorded verdict no longer holds, in either direction.
+the paper; `words` has symbols and causes, `contact` solves. What is printed stands in the check, or
+as a function `eq_...` beside it if several checks use it, or in `stronge1994.printed` if figures
+draw it. A run checks every entry (`checking`), and fails if a recorded verdict no longer holds, in
+either direction.
 """
 
 from collections.abc import Mapping
@@ -53,5 +54,6 @@ def _with_fact(it: Entry, facts: Mapping[str, Mapping[str, Any]]) -> Entry:
     return replace(it, criterion={"value": fact["value"], "rounding": fact["tolerance"]})
 
 
+# An entry is made when its module is imported.
 for section in SECTIONS:
     import_module(f"stronge1994.paper.{section}")
