@@ -62,10 +62,10 @@ def environment(*folders: str | Path) -> jinja2.Environment:
 
 
 def embedded(svg: bytes) -> Markup:
-    """Address of a drawing that holds the drawing itself, in double quotes, and as short as it can be.
+    """Address of a drawing that holds the drawing itself, as short as it can be.
 
-    Base64 would be a third longer. Paths are rounded to hundredths of a point, which nobody sees;
-    what is said about the file, and the names of letters, go.
+    It stands between double quotes. In base64 it would be a third longer. Paths are rounded to
+    hundredths of a point, which nobody sees; what is said about the file, and comments, go.
 
     >>> print(embedded(b'<svg><!-- x --><path d="M 1.2345 60.0"  fill="#fff"/></svg>'))
     data:image/svg+xml,<svg><path d='M1.23 60'  fill='%23fff'/></svg>
