@@ -78,7 +78,7 @@ SOLVING = [*SOLVER, *COMMON, *files("src/stronge1994/printed/*", "src/stronge199
 DRAWING = [*COMMON, *files("src/stronge1994/figures/shared/drawing/*")]
 JUDGING = [*COMMON, *files("src/stronge1994/judging/*", "src/stronge1994/paper/*", "src/stronge1994/printed/*")]
 WRITING = [*DRAWING, *JUDGING, *files("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
-WRITING += files("src/stronge1994/explorer/*", f"{figures.folder_of('inelastic')}/trials.py")
+WRITING += files("src/stronge1994/explorer/*")
 
 
 def of_folder(without):
