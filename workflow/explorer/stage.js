@@ -61,7 +61,7 @@ const stage = (() => {
     return { segment, share };
   }
 
-  // Ball, contact and wall of one lane now.
+  // Ball, bounce and instant of its contact in one lane now.
   function lane_at(parts, { segment, share }) {
     const one = parts[segment.index];
     if (one.kind === "flight") return { ball: flight.later(one.ball, share * one.time) };
@@ -69,8 +69,8 @@ const stage = (() => {
     const gone = (row.velocity - one.x) / (one.contact.state.velocity - one.x || 1);
     const mix = (name) => one.ball[name] + gone * (one.after[name] - one.ball[name]);
     return {
-      ball: { ...one.ball, along: mix("along"), spin: mix("spin") },
-      bounce: one, row: share < 1 ? row : null, slip: one.sign * one.unit * row.velocity,
+      ball: { ...one.ball, along: mix("along"), spin: mix("spin") }, bounce: one,
+      row: share < 1 ? row : null,
     };
   }
 
@@ -177,7 +177,7 @@ const stage = (() => {
   };
 
   function show_lane(lane, now, at_moment) {
-    const { ball, bounce, row, slip } = lane_at(shown.flights[lane], at_moment);
+    const { ball, bounce, row } = lane_at(shown.flights[lane], at_moment);
     const [x, y] = place_of(ball, lane);
     const { radius } = frame;
     const degrees = (ball.turn * 180) / Math.PI;
@@ -191,9 +191,6 @@ const stage = (() => {
     part(`${lane}-path`).setAttribute("d",
       `M${behind.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join("L")}`);
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
-    const arrow = bounce && !row
-      ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
-    part(`${lane}-slip`).setAttribute("d", arrow);
     part(`${lane}-numbers`).textContent = row && narrow()
       ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
     part(`${lane}-lens`).innerHTML = row ? lens_of(lane, bounce, row, [x, foot]) : "";
@@ -212,9 +209,6 @@ const stage = (() => {
     return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign,
       up, springy: springy(lane), x, y, size, tip, side, worded: !narrow() });
   }
-
-  // Pixels for 1 m/s, of arrows.
-  const speed_scale = () => Math.min(18, frame.width / 36);
 
   function show(now) {
     const at_moment = moment(now);
