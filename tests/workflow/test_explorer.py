@@ -41,12 +41,6 @@ def texts(tab, query):
     return tab.evaluate(f"[...document.querySelectorAll('{query}')].map((e) => e.textContent)")
 
 
-def numbers(cells):
-    """Numbers of texts; a dash is none."""
-    signed = [one.replace("\u2212", "-").replace("\u2013", "0") for one in cells]
-    return np.array(signed, float)
-
-
 def value(tab, name):
     return float(tab.evaluate(f"{element(name)}.value"))
 

@@ -160,7 +160,7 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
     project, _ = first_run
     pages = {kind: (project / f"figures/{kind}{name}.html").read_text() for kind in PAGES}
     for page in pages.values():
-        assert not re.search(r'src="(?!explorer\.html\?stage(=micro)?#|data:)|url\(|@import', page)
+        assert not re.search(r'src="(?!explorer\.html\?stage#|data:)|url\(|@import', page)
         linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
         assert all(re.fullmatch(r"[\w/]+\.(html|csv|ipynb)", file) for file in linked)
         assert not [file for file in linked if file.startswith("answers_")], "of the teacher"

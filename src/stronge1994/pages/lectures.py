@@ -33,16 +33,12 @@ CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
 EXPORTERS = {"page": HTMLExporter, "answers": HTMLExporter, "slides": SlidesExporter}
 # A paragraph that is only a link to the stage of the explorer, or only a picture that is a file.
-# `?stage=micro` opens the stage at the instant of micro-slip.
-STAGE = re.compile(
-    r"^\[(?P<words>[^]]+)\]\((?P<page>explorer\.html)(?P<stage>\?stage(?:=micro)?)(?P<state>#\S+)\)$",
-    re.M,
-)
+STAGE = re.compile(r"^\[(?P<words>[^]]+)\]\(explorer\.html\?stage(?P<state>#\S+)\)$", re.M)
 FRAME = """<figure class="play">
-<iframe src="{page}{stage}{state}" title="{title}" loading="lazy"></iframe>
+<iframe src="explorer.html?stage{state}" title="{title}" loading="lazy"></iframe>
 <figcaption>
 
-{words}. [Open in the explorer]({page}{state})
+{words}. [Open in the explorer](explorer.html{state})
 
 </figcaption>
 </figure>"""

@@ -20,7 +20,7 @@ import pandas as pd
 STYLE = re.compile(r'"(\w+\.mplstyle)"')
 TABLE = re.compile(r'^(\w+) = pd\.read_csv\("([^"]+)"\)$', re.M)
 PICTURE = re.compile(r"!\[([^]]*)\]\((\.\./[^)]+\.svg)\)")
-PAGE = re.compile(r"\.\./\.\./figures/([\w.]+)(?:\?stage(?:=\w+)?)?")
+PAGE = re.compile(r"\.\./\.\./figures/([\w.]+)(?:\?stage)?")
 MODULE = re.compile(r"^(?:from|import) (\w+)", re.M)
 BEGIN = """\
 **This notebook is yours.** Run it from top to bottom: menu *Run*, *Run All Cells*. Then change any
