@@ -110,7 +110,7 @@ def test_the_numbers_saved_are_those_of_the_package(scripts):
     table = pd.read_csv(io.StringIO(saved), comment="#")
     every, angle = (table.pop(name).to_numpy() for name in table.columns[:2])
     assert np.abs(angle - np.degrees(np.arctan(mu * every))).max() < 1e-9
-    names = {"rigid limit": "rigid", "the paper’s lumped model": "lumped"}
+    names = {"the paper’s lumped model": "lumped", "rigid limit": "rigid"}
     units = "v1(tf)/(mu v2(0)) [1]", "largest F1/(mu largest F2) [1]"
     units += ("work of friction/(mu^2 m2 v2(0)^2) [1]",)
     assert list(table) == [f"{name}: largest F1 / largest F2 x cos(theta) [1]" for name in names]

@@ -117,7 +117,7 @@ const charts = (() => {
     xs.push(...limits.filter((threshold) => threshold > 0 && place(threshold) < range[1]));
     xs.sort((a, b) => a - b);
     const cosine = (incidence) => 1 / Math.hypot(1, mu * incidence);
-    const curves = ["rigid", "lumped"].map((style) => {
+    const curves = ["lumped", "rigid"].map((style) => {
       const measure = (one) => value(models.state(style, { ...impact, x: one }), mu, cosine(one));
       return { style, ys: xs.map(measure), present: measure(x) };
     });
@@ -132,11 +132,12 @@ const charts = (() => {
     const bands = REGIMES.map(([style, ...words], i) =>
       edges[i + 1] > edges[i] ? band(style, edges[i], edges[i + 1], words, scales) : "");
     const here = Math.min(place(x), range[1]);
+    const drawn = curves.toReversed();
     svg.innerHTML =
       bands.join("") + scales.markup + guide(here, scales) +
       (beside ? line("normal", places, beyond, scales) : "") +
-      curves.map(({ style, ys }) => line(`curve ${style}`, places, ys, scales)).join("") +
-      curves.map(({ style, present }) => `<circle class="present ${style}" cx="${scales.X(here)}"
+      drawn.map(({ style, ys }) => line(`curve ${style}`, places, ys, scales)).join("") +
+      drawn.map(({ style, present }) => `<circle class="present ${style}" cx="${scales.X(here)}"
         cy="${scales.Y(present)}" r="${style === "lumped" ? 6 : 4}"/>`).join("");
     const angle = (event) => (over_angle ? scales.at(event) : to_angle(scales.at(event)));
     return { angle, quantity, xs, curves };
