@@ -132,7 +132,7 @@ const charts = (() => {
     const bands = REGIMES.map(([style, ...words], i) =>
       edges[i + 1] > edges[i] ? band(style, edges[i], edges[i + 1], words, scales) : "");
     const here = Math.min(place(x), range[1]);
-    const drawn = curves.toReversed();
+    const drawn = [...curves].reverse();
     svg.innerHTML =
       bands.join("") + scales.markup + guide(here, scales) +
       (beside ? line("normal", places, beyond, scales) : "") +

@@ -91,7 +91,8 @@ const files = (() => {
       }, [""]);
     };
     const top = above.flatMap(wrapped);
-    canvas.height = PIXELS * (height + LINE * (top.length + below.length) + 3 * MARGIN);
+    const foot = below.flatMap((line) => (typeof line === "string" ? wrapped(line) : [line]));
+    canvas.height = PIXELS * (height + LINE * (top.length + foot.length) + 3 * MARGIN);
     pen.scale(PIXELS, PIXELS);
     pen.fillStyle = backgroundColor;
     pen.fillRect(0, 0, canvas.width, canvas.height);
@@ -104,7 +105,7 @@ const files = (() => {
     top.forEach((text) => write(text));
     pen.drawImage(image, MARGIN, y, width, height);
     y += height + MARGIN / 2;
-    for (const line of below) {
+    for (const line of foot) {
       if (typeof line === "string") {
         write(line);
         continue;
