@@ -110,6 +110,8 @@ def test_a_run_writes_this_page_and_it_needs_nothing_else(first_run, explorer):
     assert not re.search(r"https?:|@import|\bsrc\s*=\s*[\"']", page)
     linked = re.findall(r"<(\w+)[^>]*\bhref=\"([^\"]*)\"", page)
     assert [address for tag, address in linked if tag != "a"] == ["data:,"]
+    # Who has no JavaScript reads so before an empty stage.
+    assert page.index("<noscript>") < page.index('id="stage-svg"')
 
 
 def test_a_page_with_a_wrong_solver_says_so(tab, explorer, tmp_path):
@@ -434,7 +436,9 @@ def test_numbers_and_pictures_are_saved(show):
     tab.evaluate(
         "{ window.written = ''; const { fillText } = CanvasRenderingContext2D.prototype;"
         " CanvasRenderingContext2D.prototype.fillText = function (text, ...place) {"
-        " window.written += text; fillText.call(this, text, ...place); };"
+        " window.written += text; window.end = Math.max(window.end ?? 0, (place[0] +"
+        " this.measureText(text).width) * this.getTransform().a / this.canvas.width);"
+        " fillText.call(this, text, ...place); };"
         " const { serializeToString } = XMLSerializer.prototype;"
         " XMLSerializer.prototype.serializeToString = function (drawing) {"
         " window.written += drawing.textContent; return serializeToString.call(this, drawing); } }"
@@ -447,6 +451,7 @@ def test_numbers_and_pictures_are_saved(show):
         assert picture.shape[1] > 600 and picture[..., :3].std() > 0.05
         # A drawing without its style sheet would be black.
         assert np.median(picture[..., :3]) > 0.9
+    assert tab.evaluate("end") <= 1, "a line is wider than its picture"
     written = tab.evaluate("written")
     assert "v₁(t_f)/(µv₂(0)) of the contact" in written and "Press Throw" not in written
 
