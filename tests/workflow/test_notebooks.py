@@ -117,6 +117,7 @@ def test_no_page_and_no_student_has_the_checks(tmp_path):
         ("assert three", "said: line 2 of its check quotes no words of the text"),
         ("three = says('is 3', 3)", "said: its check leaves three behind; let a function make it"),
         ("import sys", "said: its check leaves sys behind"),
+        ("says('is 3' 3", "said: line 2 of its check: "),
     ],
 )
 def test_a_text_that_states_what_its_cells_do_not_give_fails_the_run(check, words, tmp_path):

@@ -86,12 +86,15 @@ def fault(cells: Sequence[Any]) -> str:
     for text, check in checked(cells):
         if text is None or text.cell_type != "markdown":
             return f"{check.id}: a check stands directly below the text that it quotes"
+        try:
+            steps = dis.get_instructions(compile(check.source, check.id, "exec"))
+        except SyntaxError as error:
+            return f"{text.id}: line {error.lineno} of its check: {error.msg}"
         for words, node in quotations(check.source):
             if words is None:
                 return f"{text.id}: line {node.lineno} of its check quotes no words of the text"
             if " ".join(words.split()) not in " ".join(text.source.split()):
                 return f"{text.id}: the text does not say {words!r}"
-        steps = dis.get_instructions(compile(check.source, check.id, "exec"))
         left = {step.argval for step in steps if step.opname == "STORE_NAME"} - OF_CHECKS
         if left:
             return f"{text.id}: its check leaves {min(left)} behind; let a function make it"
