@@ -49,7 +49,7 @@ REPRODUCTION = {
     "goodness": "common",
     "reference_data": "common pandas tables",
     "printed": "common lumped",
-    "explorer": "planarimpact common lumped continuum bodies collision reference_data pages",
+    "explorer": "planarimpact common lumped bodies collision reference_data pages",
     "figures/solving": "planarimpact common bodies rigid lumped continuum models"
     " pandas printed tables names figures",
     "figures/drawing": "planarimpact common tables names words goodness reference_data figures"

@@ -48,11 +48,10 @@ rule report:
 
 
 rule lecture:
-    """Run one lecture, compare the numbers that its texts state, and write its pages."""
+    """Run one lecture, with the checks of what its texts state, and write its pages."""
     input:
         code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
-        numbers="workflow/notebooks/{notebook}.yaml",
         tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/curves/trade.csv"),
         style="workflow/notebooks/lecture.mplstyle",
         page="workflow/report/notebook.html",
