@@ -88,6 +88,8 @@ NOTE = 9.5
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 SKY, ORANGE = "#56B4E9", "#E69F00"
 GREY, PALE = "0.5", "0.85"
+# What the printed equations give: darker than PURPLE, so that it is seen on both grounds of a slide.
+ROSE = "#B0508A"
 
 # No pattern is dotted: a dotted line means "no tangential compliance".
 DASHES: tuple[Dashes, ...] = (
@@ -108,10 +110,12 @@ PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 # A series for which a drawing has no style of its own.
 POINT: Style = {"marker": "o", "markerfacecolor": "white", "markersize": 3.6}
 OF_PRINT = ("read from the printed curves", POINT | {"color": "0.3", "marker": "+"})
-AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
+AS_PRINTED: Style = {"color": ROSE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 # Stripes across the curve: a pale band would vanish on the dark ground of a slide.
-UNSOLVED: Style = {"color": PURPLE, "linestyle": (0, (0.18, 0.3)), "linewidth": 7, "zorder": 1.5}
-UNSOLVED |= {"dash_joinstyle": "bevel"}  # a round one makes a dot where two vertices nearly coincide
+UNSOLVED: Style = {"color": ROSE, "linestyle": (0, (0.18, 0.3)), "linewidth": 7, "zorder": 1.5}
+UNSOLVED |= {
+    "dash_joinstyle": "bevel"
+}  # a round one makes a dot where two vertices nearly coincide
 # Headings of panels of the paper's figures: what the print has, and what it does not have.
 PAPERS, OURS = "as in the paper", "added here"
 
@@ -268,17 +272,18 @@ def rigid(
     y: str,
     compliant: Table,
     label: str = "no tangential compliance",
+    **style: Any,
 ) -> Line2D:
     """Line without tangential compliance, left out where the compliant curve is the same."""
     rows = ~np.isclose(curve[y], compliant[y])
-    return line(axes, curve, x, y, rows, label=label, **RIGID)
+    return line(axes, curve, x, y, rows, label=label, **RIGID | style)
 
 
 def as_printed(axes: Axes, curves: Table, x: str, y: str, equations: str) -> Entries:
     """Draw what the printed equations give, see `printed_variants`; entries of the legend.
 
-    A curve of a restitution alone has its pattern, and an entry that names it. `equations` are the
-    numbers of the equations.
+    A curve of a restitution has its pattern, and an entry that names it. `equations` are the numbers
+    of the equations.
     """
     entries = {}
     printed = curves[curves["model"] == names.PRINTED]
@@ -287,9 +292,10 @@ def as_printed(axes: Axes, curves: Table, x: str, y: str, equations: str) -> Ent
         label, style = f"{equations} as printed", AS_PRINTED
         if curve["variant"].iloc[0] == names.NO_SOLUTION:
             label, style = "no solution as printed", UNSOLVED
-        elif "e" in curve and "mu" not in curve:
-            label += f", {parameters(curve)}"
-            style = style | {"linestyle": of_restitution(curve["e"].iloc[0])}
+        elif "e" in curve:
+            e = curve["e"].iloc[0]
+            label += f", $e = {e:g}$"
+            style = style | {"linestyle": of_restitution(e)}
         entries[label] = line(axes, curve, x, y, label=label, **style)
     return list(entries.values())
 

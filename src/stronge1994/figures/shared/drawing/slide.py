@@ -20,9 +20,7 @@ DOTS_PER_INCH = 300
 DARK = np.array([0x15, 0x18, 0x1C])  # ground of the pages and of the lectures
 
 
-def save(
-    figure: Figure, panel: str, title: str, light: str, dark: str, source: str = ""
-) -> None:
+def save(figure: Figure, panel: str, title: str, light: str, dark: str, source: str = "") -> None:
     """Reduce a figure to one panel, and write both files; `source` goes to their metadata."""
     kept = next(a for a in figure.axes if f"({panel})" in a.get_title("left") + a.get_title())
     legends = figure.findobj(Legend)
@@ -32,8 +30,9 @@ def save(
     for part in [*legends, *(axes for axes in figure.axes if axes is not kept)]:
         part.remove()
     kept.set_subplotspec(figure.add_gridspec()[0])
-    kept.set_title("", loc="left")
-    kept.set_title(re.sub(r"^\(\w\) ", "", kept.get_title()))
+    for place in ("left", "center"):
+        words = re.sub(r"^\(\w\) ?", "", kept.get_title(place))
+        kept.set_title(words, loc=place)
     for axis in (kept.xaxis, kept.yaxis):
         axis.label.set_visible(True)
         axis.set_tick_params(labelbottom=True, labelleft=True)
