@@ -55,7 +55,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     _draw_bars(bars, list(contacts.values()))
     entries = []
     for e, curve in contacts.items():
-        dashes = {"linestyle": house_style.of_restitution(e)}
+        dashes: Style = {"linestyle": house_style.of_restitution(e)}
         for column, (style, _) in FORCES.items():
             house_style.line(forces, curve, TIME, column, label="_", **style | dashes)
         black = dashes | {"color": house_style.BLACK, "label": house_style.parameters(curve)}

@@ -88,7 +88,7 @@ NOTE = 9.5
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 SKY, ORANGE = "#56B4E9", "#E69F00"
 GREY, PALE = "0.5", "0.85"
-# What the printed equations give: darker than PURPLE, so that it is seen on both grounds of a slide.
+# For printed equations; darker than PURPLE, so that it is seen on both grounds of a slide.
 ROSE = "#B0508A"
 
 # No pattern is dotted: a dotted line means "no tangential compliance".
@@ -177,7 +177,7 @@ def shortened(svg: str) -> str:
 
     A hundredth of a point is far below the width of a line.
 
-    >>> shortened('<g id="line_1">\\n  <!-- e = 1 -->\\n  <path d="M 1.23456 2 \\nL 3.5 4"/>\\n</g>')
+    >>> shortened('<g id="line_1">\\n  <!-- e = 1 -->\\n  <path d="M 1.23456 2 \\nL 3.5 4"/></g>')
     '<g><path d="M1.23 2L3.5 4"/></g>'
     """
 
@@ -282,8 +282,8 @@ def rigid(
 def as_printed(axes: Axes, curves: Table, x: str, y: str, equations: str) -> Entries:
     """Draw what the printed equations give, see `printed_variants`; entries of the legend.
 
-    A curve of a restitution has its pattern, and an entry that names it. `equations` are the numbers
-    of the equations.
+    A curve of a restitution has its pattern, and an entry that names it. `equations` are the
+    numbers of the equations.
     """
     entries = {}
     printed = curves[curves["model"] == names.PRINTED]

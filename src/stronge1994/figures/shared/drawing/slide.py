@@ -10,7 +10,6 @@ import textwrap
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.legend import Legend
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
@@ -23,7 +22,8 @@ DARK = np.array([0x15, 0x18, 0x1C])  # ground of the pages and of the lectures
 def save(figure: Figure, panel: str, title: str, light: str, dark: str, source: str = "") -> None:
     """Reduce a figure to one panel, and write both files; `source` goes to their metadata."""
     kept = next(a for a in figure.axes if f"({panel})" in a.get_title("left") + a.get_title())
-    legends = figure.findobj(Legend)
+    # A legend inside the panel stays; that of the figure has entries of other panels, too.
+    legends = list(figure.legends)
     known = {text.get_text() for legend in legends for text in legend.get_texts()}
     pairs = zip(*kept.get_legend_handles_labels(), strict=True)
     shown = {label: artist for artist, label in pairs if label in known}
