@@ -84,10 +84,10 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     lines = _draw_others(others, curves, settings, added)
     measured = _draw_experiment(shots, curves, added)
     sphere, experiment = _sphere(curves), _experiment(curves)
-    for panel, curve in ((paper, sphere), (others, sphere), (shots, experiment)):
-        drawn = curve[Y][curve[X] <= right]
-        low, high = np.floor(drawn.min()) - 1, np.ceil(drawn.iloc[-1])
-        panel.set(xlim=(left, right), ylim=(low, max(high, low + 1)))
+    for panel, shown in ((paper, [sphere]), (others, [sphere, experiment])):
+        drawn = np.concatenate([curve[Y][curve[X] <= right] for curve in shown])
+        # As in the paper, -3 to 1; the last digit of a velocity makes no further unit.
+        panel.set(xlim=(left, right), ylim=(np.floor(drawn.min()) - 1, np.ceil(drawn.max() - 1e-9)))
     house_style.letter([paper, gap], [PAPERS, f"{OURS}: difference from the elastic continuum"])
     e, zeta2 = (settings["experiment"][key] for key in ("restitution", "stiffness_ratio"))
     headings = f"{OURS}: rubber, elements", rf"{OURS}: $e = {e:g}$, $\zeta^2 = {zeta2:g}$"

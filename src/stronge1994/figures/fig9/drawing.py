@@ -45,7 +45,10 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
         panel.set_ylabel(r"share of $m_2 S^2/2$")
     axes.set_ylim(0, None)
     house_style.angle_axes([axes, *below], settings["angle"])
-    headings = [f"{PAPERS}, by the balance of energy", *(rf"{OURS}: $\mu = {mu:g}$" for mu in largest_first)]
+    headings = [
+        f"{PAPERS}, by the balance of energy",
+        *(rf"{OURS}: $\mu = {mu:g}$" for mu in largest_first),
+    ]
     house_style.letter([axes, *below], headings)
     house_style.above_each_other([axes, *below])
     house_style.legend_below(figure, [*balances, no_compliance, *series.values()], added)
