@@ -122,7 +122,7 @@ def _draw_paper(
         ("rigid", "no tangential compliance", 0.52, (0, 7), house_style.RIGID),
     ):
         curve = tables.select(curves, model=model)
-        house_style.line(axes, curve, X, Y, label=name, **style)
+        house_style.line(axes, curve, X, Y, label="_", **style)
         house_style.name_curve(axes, curve, X, Y, name, at * printed * 8 / 7, away)
     stick, right = settings["stiffness_ratio"], printed * 8 / 7
     spans = (

@@ -74,13 +74,14 @@ def _stroke(index: int, e: float) -> Style:
 
 def _draw_added(axes: Axes, balance: Table, curves: Table) -> Entries:
     """Draw the printed equations and the continua of one friction; entries of the legend."""
+    entries: Entries = []
     for e, curve in tables.each(balance, "e"):
-        style = PALE | {"linestyle": house_style.of_restitution(e), "label": "_"}
-        house_style.line(axes, curve, X, Y, **style)
-    printed = house_style.as_printed(axes, curves, X, Y, "Eqs 39, 40")
-    entries = {line.get_label(): line for line in printed}
+        style = PALE | {"linestyle": house_style.of_restitution(e)}
+        entries.append(house_style.line(axes, curve, X, Y, **style))
+    for line in entries[1:]:
+        line.set_label("_")
+    entries = entries[:1] + house_style.as_printed(axes, curves, X, Y, "Eqs 39, 40")
     continua = curves[tables.where(curves, model=CONTINUA)]
     for e, own in continua.groupby("e", sort=False):
-        models = model_lines.draw(axes, own, X, Y, f", $e = {e:g}$")
-        entries |= {line.get_label(): line for line in models}
-    return [house_style.key(**PALE), *entries.values()]
+        entries += model_lines.draw(axes, own, X, Y, f", $e = {e:g}$")
+    return entries

@@ -72,7 +72,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     figure = house_style.new(1.9 + 0.2 * len(names) + 2.5)
     grid = figure.add_gridspec(2, 1, height_ratios=[0.2 * len(names) + 0.4, 2])
     error, times = grid[0].subgridspec(1, 2).subplots(sharey=True)
-    keys = []
+    keys: house_style.Entries = []
     for place, ((e, loss), rows) in enumerate(cases.items()):
         mark: Style = MARKS[loss] | {"markersize": 4, "markerfacecolor": "white", "linewidth": 0.8}
         for row, name in enumerate(names):
@@ -81,7 +81,8 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
             for axes, column in ((error, ERROR), (times, time)):
                 if column in own:
                     _draw_range(axes, own[column].dropna(), height, mark)
-        keys.append(house_style.key(f"$e = {e:g}$, {loss or 'elastic'}", **mark))
+        # An artist of the panel, so that the slide has its entry, too.
+        keys += error.plot([], [], label=f"$e = {e:g}$, {loss or 'elastic'}", **mark)
     spreads = [rows[[SPREAD_STICK, SPREAD]].iloc[0] for rows in cases.values() if len(rows)]
     if spreads:
         error.axvspan(
