@@ -117,7 +117,7 @@ UNSOLVED |= {
     "dash_joinstyle": "bevel"
 }  # a round one makes a dot where two vertices nearly coincide
 # Headings of panels of the paper's figures: what the print has, and what it does not have.
-PAPERS, OURS = "as in the paper", "added here"
+PAPERS, OURS = "as the paper describes", "added here"
 
 # Parameters of curves in the paper's letters.
 SYMBOLS = {"mu": r"\mu", "nu": r"\nu", "zeta2": r"\zeta^2"}
