@@ -45,6 +45,16 @@ def test_an_accepted_row_that_is_gone_is_told_by_its_figure_and_by_a_whole_run()
     assert len(gate.faults(there[0], [ENTRY], there[1], ["eq-25"], known)) == 2
 
 
+def test_the_ledger_alone_is_judged_by_its_own_rows():
+    known = [{**row, "why": ""} for row in accepted.of_run([VERDICT], [ENTRY])]
+    assert gate.faults([], [ENTRY], [], ["eq-25"], known) == []
+    lapsed = ENTRY | {"holds": "no", "problem": "oh"}
+    assert gate.faults([], [lapsed], [], ["eq-25"], known) == ["no longer holds: eq-25: oh"]
+    said = gate.summary([], [ENTRY], [], {})
+    assert "1 equations and sentences" in said and "Every result is as accepted." in said
+    assert "PASSED" not in said and "nothing to compare" not in said
+
+
 def told(wrong=(), ledger=(ENTRY,), figures=("fig6", "fig7"), **cells):
     """What is said of a run of ten rows, of the ledger or not."""
     rows = [VERDICT | cells | {"comparison": f"row-{i}"} for i in range(10)]

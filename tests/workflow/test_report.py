@@ -8,9 +8,8 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
-from stronge1994.ledger import outcome
 
-from stronge1994 import figure_table, tables, verdict_table, versions
+from stronge1994 import figure_table, ledger_table, tables, verdict_table, versions
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number
 from stronge1994.pages import report as write_report
@@ -280,7 +279,7 @@ NO_RESIDUALS = pd.DataFrame(columns=["comparison", "quantity", "at", "distance [
 
 def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
     """Comparisons failed, and an entry of the ledger holds no longer."""
-    none = dict.fromkeys(outcome.COLUMNS, "") | {"verdict": "wrong"}
+    none = dict.fromkeys(ledger_table.COLUMNS, "") | {"verdict": "wrong"}
     answers = pd.DataFrame(ANSWER | {"tolerance [mu v2(0)]": allowed} for allowed in (0.3, 0.1))
     trade = tables.curve(TRADE, "continuum.viscous", e=0.8, loss="plastic")
     values = {
