@@ -59,6 +59,7 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
     """Rows that are not as accepted, a line for each, but for those that fail.
 
     A comparison that nobody has accepted must not differ, nor one whose points were still awaited.
+    An entry of the ledger is accepted, whatever it finds.
     Of a figure that has other settings nothing can be told: the gate says so by itself.
 
     >>> was = dict.fromkeys(COLUMNS, "") | {"name": "a", "verdict": "differs", "size": "1.5"}
@@ -81,6 +82,8 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
         elif row["verdict"] == Verdict.DIFFERS:
             what = f"{row['name']}: {verdict_table.problem(full[row['name']])}"
             told.append(f"differs, and nobody has accepted it: {what}")
+        elif row["name"] not in full:
+            told.append(f"new, and nobody has accepted it: {row['name']}: {row['verdict']}")
     return told
 
 

@@ -46,12 +46,13 @@ def faults(
     """
     there = {row["comparison"] for row in verdicts} | {row["entry"] for row in ledger}
     asked, figures = {*comparisons, *entries}, {row["figure"] for row in verdicts}
-    whole = comparisons and entries
+    whole, own = comparisons and entries, ledger_table.VERDICTS if entries else ()
     return [
         *(
             f"accepted, but no longer compared: {row['name']}"
             for row in known
-            if row["name"] not in asked and (whole or row["name"].partition("-")[0] in figures)
+            if row["name"] not in asked
+            and (whole or row["verdict"] in own or row["name"].partition("-")[0] in figures)
         ),
         *(f"missing: {name}" for name in [*comparisons, *entries] if name not in there),
         *(

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from stronge1994.tables import Row
 
+VERDICTS = ("confirmed", "confirmed within rounding", "wrong", "not testable")
 # Grades of wrong entries, the gravest first, each with a text to stand after its number.
 GRADES = {
     "changes a result": "change a result",
@@ -15,7 +16,7 @@ GRADES = {
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "only_if", "grade", "cause", "where", "says", "test",
     "found", "confirms", "corrected", "problem", "reading", "range", "correction",
-    "derivation", "because", "why",
+    "derivation", "because", "why", "code",
 ]  # fmt: skip
 
 

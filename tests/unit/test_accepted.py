@@ -54,7 +54,9 @@ def test_a_figure_with_other_settings_has_not_changed():
 
 def test_a_new_row_may_not_differ_and_an_entry_keeps_its_number():
     new = [ROW | {"verdict": verdict} for verdict in ("agrees", "cannot tell", "not compared")]
-    assert accepted.changes(new, [ENTRY], []) == []
+    assert accepted.changes(new, [], []) == []
+    told = accepted.changes(new, [ENTRY], [])
+    assert told == ["new, and nobody has accepted it: eq-25: wrong"]
     for known in ([], accepted.of_run([ROW | AWAITED], [])):
         (told,) = accepted.changes([ROW], [], known)
         assert told.startswith("differs, and nobody has accepted it: fig6-far: rms 0.15, max 0.2 N")

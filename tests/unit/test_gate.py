@@ -27,12 +27,13 @@ ENTRY = dict.fromkeys(ledger_table.COLUMNS, "") | {
         (({"verdict": "FAILS", "note": "oh"}, {}), "FAILS: fig6-rebound: oh: rms 0.1"),
         (({"comparison": "fig6-other"}, {}), "missing: fig6-rebound"),
         (({}, {"holds": "no", "problem": "oh"}), "no longer holds: eq-25: oh"),
-        (({}, {"entry": "eq-26"}), "missing: eq-25"),
+        (({}, None), "missing: eq-25"),
     ],
 )
 def test_a_row_that_fails_or_is_missing_is_a_fault(changes, fault):
-    verdict, entry = VERDICT | changes[0], ENTRY | changes[1]
-    found = gate.faults([verdict], [entry], ["fig6-rebound"], ["eq-25"], [])
+    verdict, entries = VERDICT | changes[0], [] if changes[1] is None else [ENTRY | changes[1]]
+    known = accepted.of_run([], [ENTRY])
+    found = gate.faults([verdict], entries, ["fig6-rebound"], ["eq-25"], known)
     assert len(found) == bool(fault) and all(words.startswith(fault) for words in found)
 
 
@@ -48,6 +49,9 @@ def test_an_accepted_row_that_is_gone_is_told_by_its_figure_and_by_a_whole_run()
 def test_the_ledger_alone_is_judged_by_its_own_rows():
     known = [{**row, "why": ""} for row in accepted.of_run([VERDICT], [ENTRY])]
     assert gate.faults([], [ENTRY], [], ["eq-25"], known) == []
+    gone = {**known[-1], "name": "eq-26"}
+    told = gate.faults([], [ENTRY], [], ["eq-25"], [*known, gone])
+    assert told == ["accepted, but no longer compared: eq-26"]
     lapsed = ENTRY | {"holds": "no", "problem": "oh"}
     assert gate.faults([], [lapsed], [], ["eq-25"], known) == ["no longer holds: eq-25: oh"]
     said = gate.summary([], [ENTRY], [], {})

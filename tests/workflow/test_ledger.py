@@ -213,7 +213,7 @@ ARTICLE = """its where wrong sign or misprint no longer holds eq its problem
 Printed: its says. Corrected: its correction. Derivation, cause, where it holds, reading, why not
 testable, test Derivation: its derivation. Cause: its because. Where it holds: its range. Reading:
 its reading. Why not testable: its why. Test: its test Found: its found. The its kind is right if
-this is its confirms. The corrected formula is off by its corrected."""
+this is its confirms. The corrected formula is off by its corrected. Code: its code"""
 
 
 def test_the_page_has_every_entry_and_all_columns_of_an_entry(first_run, rows, tmp_path):

@@ -35,6 +35,8 @@ def entries(facts: Mapping[str, Mapping[str, Any]]) -> dict[str, Entry]:
     for unused in sorted(set(CAUSES) - {it.words.get("cause") for it in ordered}):
         raise EntryError(f"causes.{unused}: no entry has this cause")
     for it in ordered:
+        if not it.check and it.criterion:
+            raise EntryError(f"{it.name}: no check stands below it")
         for other in REFERENCE.findall(" ".join([it.says, *it.words.values()])):
             if other not in LEDGER:
                 raise EntryError(f"{it.name}: {f'see {other}'!a} is no entry")

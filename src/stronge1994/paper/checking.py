@@ -7,6 +7,7 @@ import traceback
 from collections.abc import Iterable
 
 from stronge1994 import ledger_table
+from stronge1994.formulas import mathematical
 from stronge1994.paper.entry import Entry
 from stronge1994.paper.words import CAUSES
 from stronge1994.tables import Row
@@ -22,7 +23,8 @@ def _row(entry: Entry) -> Row:
     row = dict.fromkeys(ledger_table.COLUMNS, "") | dict(entry.words)
     row |= {"range": row.pop("holds"), "because": CAUSES.get(row["cause"], ""), "holds": ""}
     row |= {"entry": entry.name, "kind": entry.kind, "where": entry.where, "says": entry.says}
-    row |= {"verdict": entry.verdict, "test": entry.test, "confirms": entry.criterion_in_words}
+    row |= {"verdict": entry.verdict, "test": entry.test, "code": entry.code}
+    row["confirms"] = entry.criterion_in_words
     return row
 
 
@@ -31,6 +33,8 @@ def _outcome(entry: Entry) -> Row:
     if not entry.criterion:
         return {}
     try:
+        for text in (entry.says, entry.test, *entry.words.values()):
+            mathematical(text)
         found = entry.run()
         problem = entry.judge(found)
     except Exception as error:

@@ -14,20 +14,19 @@ import inspect
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Literal, NamedTuple, TypeVar, get_args
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from planarimpact.common.arrays import ArrayLike
-from stronge1994.ledger_table import GRADES
+from stronge1994.ledger_table import GRADES, VERDICTS
 from stronge1994.paper.words import CAUSES
 
 # Numbers nearer than this are equal. It leaves room for the rounding of a few hundred operations,
 # and for the error of quadrature.
 EXACT = 1e-9
 
-Verdict = Literal["confirmed", "confirmed within rounding", "wrong", "not testable"]
-CONFIRMED, ROUNDED, WRONG, NOT_TESTABLE = VERDICTS = get_args(Verdict)
+CONFIRMED, ROUNDED, WRONG, NOT_TESTABLE = VERDICTS
 VIEWS = ("velocity", "forces", "energy")
 EQUATION = re.compile(r"(eq|formula|table)-")
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
@@ -60,13 +59,14 @@ class Entry:
     where: str
     says: str
     kind: str
-    verdict: Verdict
+    verdict: str
     criterion: Mapping[str, Any]
     words: Mapping[str, str]
     explorer: Mapping[str, Any] | None
     given: Mapping[str, Any]
     check: Callable[..., Finding] | None = None
     test: str = ""
+    code: str = ""  # where the check is
 
     @property
     def criterion_in_words(self) -> str:
@@ -80,9 +80,7 @@ class Entry:
 
     def run(self) -> Finding:
         """What the check finds."""
-        if not self.check:
-            raise EntryError(f"{self.name}: it has no check")
-        return self.check(**self.given)
+        return self.check(**self.given) if self.check else Finding(np.nan)
 
     def judge(self, found: Finding) -> str:
         """Why the recorded verdict no longer holds; empty if it does.
@@ -100,7 +98,7 @@ class Entry:
         return "; ".join(complaints)
 
 
-def verdict(value: float, criterion: Mapping[str, float]) -> Verdict:
+def verdict(value: float, criterion: Mapping[str, float]) -> str:
     """Verdict that a number supports, by `at_most`, by `at_least`, or by `value` and `rounding`.
 
     >>> verdict(1.7007, {"value": 1.7, "rounding": 0.05})
@@ -124,7 +122,7 @@ def entry(
     where: str,
     says: str,
     *,
-    verdict: Verdict = CONFIRMED,
+    verdict: str = CONFIRMED,
     at: Callable[[], Iterable[Any]] | None = None,
     given: Mapping[str, Any] | None = None,
     at_most: float | None = None,
@@ -221,9 +219,12 @@ def entry(
 
     def record(check: _Check) -> _Check:
         test = " ".join((inspect.getdoc(check) or "").split())
+        code = f"{check.__module__.replace('.', '/')}.py: {check.__name__}"
+        if not test:
+            raise EntryError(f"{name}: {code} has no docstring: against what does it compare?")
         for key, argument in made.given.items():
             test = test.replace(f"{{{key}}}", str(argument).strip("[]"))
-        LEDGER[name] = replace(made, check=finding_of(check, at), test=test)
+        LEDGER[name] = replace(made, check=finding_of(check, at), test=test, code=f"src/{code}")
         return check
 
     return record
@@ -256,6 +257,8 @@ def _faults(made: Entry, criterion: Mapping[str, Any]) -> Iterable[str]:
     for key in sorted(needed - set(made.words)):
         yield f"no {key}: {made.verdict!r} needs it"
     for key in sorted(set(made.words) - allowed):
+        if key not in {*of_wrong, "only_if", "why"}:
+            yield f"{key}: `entry` takes no such argument"
         yield f"{key}: allowed beside {made.verdict!r} are {', '.join(sorted(allowed))}"
     if made.verdict == NOT_TESTABLE and criterion:
         yield f"{next(iter(criterion))}: an entry that is not testable has no check"
@@ -274,7 +277,7 @@ def finding_of(
 
     def found(**given: Any) -> Finding:
         if at is None:
-            return Finding(check(**given))
+            return Finding(float(check(**given)))
         if inspect.isgeneratorfunction(check):
             return Finding(largest(gap for place in at() for gap in check(place, **given)))
         printed, corrected = zip(*(check(place, **given) for place in at()), strict=True)
