@@ -88,7 +88,7 @@ def test_numbers_of_the_abstract_are_those_that_the_words_behind_them_mean(pages
         f"{worst['points']} measured pairs of materials differ",
         f"= {worst['chi^2']} ), mainly",
         f"= {pairs['continuum.viscous-pairs']['chi^2']} ), but this test is weak",
-        f"nearer to the model ( {impacts['lumped.hysteretic-impacts']['rms']} of",
+        f"restitution differs by {impacts['lumped.hysteretic-impacts']['rms']} ,",
     ]
     assert [words for words in said if flat(words) not in flat(told)] == []
     # What these sentences claim without a number.
@@ -104,9 +104,9 @@ def test_the_contact_sheet_names_the_largest_difference_of_a_figure(pages):
         name: Page(f'<a "{rest}').text
         for name, rest in re.findall(r'<a href="#(fig\d)"(.*?)</li>', sheet, flags=re.S)
     }
-    assert "differs 4 not compared 2 agrees 2 largest difference: slip throughout" in told["fig5"]
-    assert "differs 1 not compared 1 largest difference: Eq. 25" in told["fig6"]
-    assert told["fig2"].endswith("not compared 1")
+    assert "differs not compared agrees largest difference: slip throughout" in told["fig5"]
+    assert "differs not compared largest difference: Eq. 25" in told["fig6"]
+    assert told["fig2"].endswith("not compared")
 
 
 def test_sigmas_in_the_reasons_of_comparisons_are_those_of_the_run(first_run):
