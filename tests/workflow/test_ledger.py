@@ -171,7 +171,7 @@ def test_a_wrong_equation_has_an_exact_correction(rows):
     assert wrong and all(float(rows[name]["corrected"]) < 1e-12 for name in wrong)
 
 
-def test_a_check_that_crashes_no_longer_holds(monkeypatch):
+def test_a_check_that_crashes_no_longer_holds_nor_does_a_formula_that_cannot_be_set(monkeypatch):
     def crash(*args, **kwargs):
         raise ArithmeticError("oh")
 
@@ -179,6 +179,9 @@ def test_a_check_that_crashes_no_longer_holds(monkeypatch):
     monkeypatch.setattr(contact, "_KNOWN", {})
     row = checking.check([ENTRIES["eq-12"]])[0]
     assert (row["holds"], row["problem"]) == ("no", "ArithmeticError: oh")
+    words = {"why": r"$\foo$"}
+    row_of_words = checking.check([replace(ENTRIES["wear-tests"], words=words)])[0]
+    assert row_of_words["holds"] == "no" and "foo" in row_of_words["problem"]
     said = f"  no longer holds: eq-12 ({ENTRIES['eq-12'].where}): ArithmeticError: oh"
     assert ledger_table.summary([row]).splitlines()[-1] == said
 

@@ -29,12 +29,12 @@ def _row(entry: Entry) -> Row:
 
 
 def _outcome(entry: Entry) -> Row:
-    """What its check finds, if it has one."""
-    if not entry.criterion:
-        return {}
+    """What its check finds, if it has one; an entry whose formulas cannot be set does not hold."""
     try:
         for text in (entry.says, entry.test, *entry.words.values()):
             mathematical(text)
+        if not entry.check:
+            return {}
         found = entry.run()
         problem = entry.judge(found)
     except Exception as error:

@@ -220,6 +220,8 @@ def entry(
     def record(check: _Check) -> _Check:
         test = " ".join((inspect.getdoc(check) or "").split())
         code = f"{check.__module__.replace('.', '/')}.py: {check.__name__}"
+        if made.verdict == NOT_TESTABLE:
+            raise EntryError(f"{name}: an entry that is not testable has no check, as {code}")
         if not test:
             raise EntryError(f"{name}: {code} has no docstring: against what does it compare?")
         for key, argument in made.given.items():
