@@ -36,7 +36,7 @@ SOLVER = {
     ),
     "__main__": ("planarimpact common bodies lumped continuum models export fit collision scene"),
 }
-# The reproduction. Only curves and ledger solve; drawings get curves, pages get tables.
+# The reproduction. Only curves and checks of the paper solve; drawings get curves, pages tables.
 REPRODUCTION = {
     "__init__": "",
     "names": "",
@@ -49,7 +49,7 @@ REPRODUCTION = {
     "goodness": "common",
     "reference_data": "common pandas tables",
     "printed": "common lumped",
-    "explorer": "planarimpact common lumped continuum bodies collision reference_data pages",
+    "explorer": "planarimpact common lumped bodies collision reference_data pages",
     "figures/solving": "planarimpact common bodies rigid lumped continuum models"
     " pandas printed tables names figures",
     "figures/drawing": "planarimpact common tables names words goodness reference_data figures"
@@ -58,16 +58,17 @@ REPRODUCTION = {
     " spheres scene pandas printed tables names figures studies settings",
     "studies/drawing": "planarimpact common tables names words goodness figures studies"
     " matplotlib pandas",
-    "ledger": "common bodies rigid lumped continuum noncollinear models"
-    " printed tables reference_data judging",
+    "ledger_table": "tables",
+    "paper": "common bodies rigid lumped continuum noncollinear models"
+    " printed tables ledger_table judging",
     "judging": "common pandas tables names formulas goodness reference_data verdict_table",
     "settings": "reference_data judging names",
     "versions": "planarimpact",
     "logs": "",
-    "accepted": "tables verdict_table ledger",
-    "gate": "accepted tables figure_table verdict_table ledger",
+    "accepted": "tables verdict_table ledger_table",
+    "gate": "accepted tables figure_table verdict_table ledger_table",
     "pages": "common bodies export tables reference_data figures studies formulas goodness judging"
-    " ledger settings accepted gate versions names words figure_table verdict_table"
+    " paper ledger_table settings accepted gate versions names words figure_table verdict_table"
     " jinja2 pandas matplotlib",
 }
 # Figures and studies have one folder each, and in it files that solve and files that draw, or that

@@ -8,8 +8,7 @@ nor shrink unseen. `snakemake accept` writes the table; its changes are read in 
 import math
 from collections.abc import Iterator, Sequence
 
-from stronge1994 import tables, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import ledger_table, tables, verdict_table
 from stronge1994.tables import Row, with_unit
 from stronge1994.verdict_table import Verdict, Why
 
@@ -60,6 +59,7 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
     """Rows that are not as accepted, a line for each, but for those that fail.
 
     A comparison that nobody has accepted must not differ, nor one whose points were still awaited.
+    An entry of the ledger is accepted, whatever it finds.
     Of a figure that has other settings nothing can be told: the gate says so by itself.
 
     >>> was = dict.fromkeys(COLUMNS, "") | {"name": "a", "verdict": "differs", "size": "1.5"}
@@ -82,6 +82,8 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
         elif row["verdict"] == Verdict.DIFFERS:
             what = f"{row['name']}: {verdict_table.problem(full[row['name']])}"
             told.append(f"differs, and nobody has accepted it: {what}")
+        elif row["name"] not in full:
+            told.append(f"new, and nobody has accepted it: {row['name']}: {row['verdict']}")
     return told
 
 
@@ -106,7 +108,9 @@ def _alike(was: str, now: str) -> bool:
 def refused(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[str]:
     """Names of rows that nobody can accept: they fail, or are of a run with other settings."""
     bad = [row for row in verdicts if row["verdict"] == Verdict.FAILS or row["why"] == Why.SETTINGS]
-    return [row["comparison"] for row in bad] + [row["entry"] for row in outcome.failing(ledger)]
+    return [row["comparison"] for row in bad] + [
+        row["entry"] for row in ledger_table.failing(ledger)
+    ]
 
 
 def write(verdicts: Sequence[Row], ledger: Sequence[Row]) -> None:

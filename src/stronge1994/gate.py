@@ -4,8 +4,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 
-from stronge1994 import accepted, figure_table, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import accepted, figure_table, ledger_table, verdict_table
 from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
 
@@ -39,19 +38,21 @@ def faults(
     """Why a run must not pass, by its tables, one line for each fault.
 
     `comparisons` and `entries` name the rows that the tables of verdicts and of the ledger must
-    have, and `known` has the rows of the accepted table. A whole run, which has entries, has all of
-    these, and a part of it those of its figures.
+    have, and `known` has the rows of the accepted table. A whole run, which has both, has all of
+    these, a part of it those of its figures, and the ledger alone those of its entries.
 
     >>> faults([], [], ["fig6-printed"], [], [])
     ['missing: fig6-printed']
     """
     there = {row["comparison"] for row in verdicts} | {row["entry"] for row in ledger}
     asked, figures = {*comparisons, *entries}, {row["figure"] for row in verdicts}
+    whole, own = comparisons and entries, ledger_table.VERDICTS if entries else ()
     return [
         *(
             f"accepted, but no longer compared: {row['name']}"
             for row in known
-            if row["name"] not in asked and (entries or row["name"].partition("-")[0] in figures)
+            if row["name"] not in asked
+            and (whole or row["verdict"] in own or row["name"].partition("-")[0] in figures)
         ),
         *(f"missing: {name}" for name in [*comparisons, *entries] if name not in there),
         *(
@@ -59,7 +60,10 @@ def faults(
             for row in verdicts
             if row["verdict"] == Verdict.FAILS
         ),
-        *(f"no longer holds: {row['entry']}: {row['problem']}" for row in outcome.failing(ledger)),
+        *(
+            f"no longer holds: {row['entry']}: {row['problem']}"
+            for row in ledger_table.failing(ledger)
+        ),
         *accepted.changes(verdicts, ledger, known),
     ]
 
@@ -79,16 +83,17 @@ def summary(
     """What a run says at its end: its rows in short, and whether it has passed.
 
     `wrong` are its `faults`; `shows` says what each figure of the paper shows. A run without a
-    ledger is one of a part, of Fig. 6 for example.
+    ledger, or with it alone, is one of a part, of Fig. 6 for example.
     """
     figures, others = {row["figure"] for row in verdicts}, unmade(verdicts)
-    if ledger or len(figures) > 1:
+    parts = []
+    if verdicts and (ledger or len(figures) > 1):
         shown = {name: words for name, words in shows.items() if name in figures}
         parts = [figure_table.text(figure_table.of_run(verdicts, shown))]
         parts += filter(None, [figure_table.beyond(verdicts), figure_table.of_solver(verdicts)])
-        parts += ["", outcome.summary(ledger)] if ledger else []
-    else:
+    elif verdicts:
         parts = [verdict_table.text(verdicts), "All columns: results/verdicts/"]
+    parts += ["", ledger_table.summary(ledger)] if ledger else []
     if others:
         settings = "; ".join(list(dict.fromkeys(row["note"] for row in others))[:2])
         parts += [_filled(UNMADE.format(len(others), settings))]
@@ -98,13 +103,15 @@ def summary(
         more = len(wrong) - MOST_FAULTS
         parts += [f"  and {more} more: results/verdicts/, results/ledger.csv"] if more > 0 else []
         parts += [] if accepted.refused(verdicts, ledger) else [accepted.ACCEPT]
-    elif ledger and not others:
+    elif ledger and verdicts and not others:
         found = Counter(row["verdict"] for row in verdicts)
         checks = len(verdicts) - found[Verdict.NOT_COMPARED] + len(ledger)
         printed = figure_table.of_printed(verdicts) or NO_PRINT
         parts += [PASSED.format(checks=checks, printed=printed)]
     elif not others:
-        parts += ["Every result is as accepted." if verdicts else "There is nothing to compare."]
+        parts += [
+            "Every result is as accepted." if verdicts or ledger else "There is nothing to compare."
+        ]
         parts += ["The verdict of all: snakemake --cores 2"]
     return "\n".join(["", *parts])
 

@@ -2,15 +2,14 @@
 
 import pytest
 
-from stronge1994 import accepted, tables, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import accepted, ledger_table, tables, verdict_table
 
 ROW = dict.fromkeys(verdict_table.COLUMNS, "") | {
     "figure": "fig6", "comparison": "fig6-far", "verdict": "differs", "why": "cause known",
     "points": "5", "size": "0.15", "unit": "N", "rms": "0.15", "max": "0.2",
     "allowed": "max <= 0.1 N",
 }  # fmt: skip
-ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {
+ENTRY = dict.fromkeys(ledger_table.COLUMNS, "") | {
     "entry": "eq-25", "verdict": "wrong", "holds": "yes", "found": "3.5",
 }  # fmt: skip
 NOT_JUDGED = {"verdict": "not compared", "why": "other settings", "size": "", "points": ""}
@@ -55,7 +54,9 @@ def test_a_figure_with_other_settings_has_not_changed():
 
 def test_a_new_row_may_not_differ_and_an_entry_keeps_its_number():
     new = [ROW | {"verdict": verdict} for verdict in ("agrees", "cannot tell", "not compared")]
-    assert accepted.changes(new, [ENTRY], []) == []
+    assert accepted.changes(new, [], []) == []
+    told = accepted.changes(new, [ENTRY], [])
+    assert told == ["new, and nobody has accepted it: eq-25: wrong"]
     for known in ([], accepted.of_run([ROW | AWAITED], [])):
         (told,) = accepted.changes([ROW], [], known)
         assert told.startswith("differs, and nobody has accepted it: fig6-far: rms 0.15, max 0.2 N")

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import yaml
 
-from stronge1994 import formulas, ledger, words
+from stronge1994 import formulas, paper, words
+from stronge1994.paper.entry import LEDGER
 from stronge1994.settings import figures
 
 ROOT = Path(__file__).parents[2]
@@ -34,6 +35,7 @@ def test_every_formula_can_be_set():
     files = [*(ROOT / "data").glob("*/*.yaml"), *figures.PACKAGE.glob("*/*/figure.yaml")]
     assert len(files) > 30
     contents = [yaml.safe_load(path.read_text(encoding="utf-8")) for path in files]
-    for text in texts([contents, [check.__doc__ for check in ledger.checks().values()]]):
+    stated = [[entry.says, entry.test, *entry.words.values()] for entry in LEDGER.values()]
+    for text in texts([contents, stated, paper.SYMBOLS, list(paper.CAUSES.values())]):
         rest = re.sub("<math.*?</math>|<code>.*?</code>", "", formulas.mathematical(text))
         assert not re.search(r"[$\\]", rest + formulas.plain(text)), text

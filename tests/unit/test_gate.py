@@ -2,15 +2,18 @@
 
 import pytest
 
-from stronge1994 import accepted, gate, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import accepted, gate, ledger_table, verdict_table
 
 VERDICT = {
     **dict.fromkeys(verdict_table.COLUMNS, ""),
     "figure": "fig6", "comparison": "fig6-rebound", "group": "others", "verdict": "agrees",
     "reference": "a/b", "points": 5, "rms": 0.1, "max": 0.2, "unit": "N", "allowed": "max <= 1 N",
 }  # fmt: skip
-ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {"entry": "eq-25", "verdict": "wrong", "holds": "yes"}
+ENTRY = dict.fromkeys(ledger_table.COLUMNS, "") | {
+    "entry": "eq-25",
+    "verdict": "wrong",
+    "holds": "yes",
+}
 
 
 @pytest.mark.parametrize(
@@ -24,12 +27,13 @@ ENTRY = dict.fromkeys(outcome.COLUMNS, "") | {"entry": "eq-25", "verdict": "wron
         (({"verdict": "FAILS", "note": "oh"}, {}), "FAILS: fig6-rebound: oh: rms 0.1"),
         (({"comparison": "fig6-other"}, {}), "missing: fig6-rebound"),
         (({}, {"holds": "no", "problem": "oh"}), "no longer holds: eq-25: oh"),
-        (({}, {"entry": "eq-26"}), "missing: eq-25"),
+        (({}, None), "missing: eq-25"),
     ],
 )
 def test_a_row_that_fails_or_is_missing_is_a_fault(changes, fault):
-    verdict, entry = VERDICT | changes[0], ENTRY | changes[1]
-    found = gate.faults([verdict], [entry], ["fig6-rebound"], ["eq-25"], [])
+    verdict, entries = VERDICT | changes[0], [] if changes[1] is None else [ENTRY | changes[1]]
+    known = accepted.of_run([], [ENTRY])
+    found = gate.faults([verdict], entries, ["fig6-rebound"], ["eq-25"], known)
     assert len(found) == bool(fault) and all(words.startswith(fault) for words in found)
 
 
@@ -40,6 +44,19 @@ def test_an_accepted_row_that_is_gone_is_told_by_its_figure_and_by_a_whole_run()
     told = gate.faults(there[0], [], there[1], [], known)
     assert told == ["accepted, but no longer compared: fig6-rebound"]
     assert len(gate.faults(there[0], [ENTRY], there[1], ["eq-25"], known)) == 2
+
+
+def test_the_ledger_alone_is_judged_by_its_own_rows():
+    known = [{**row, "why": ""} for row in accepted.of_run([VERDICT], [ENTRY])]
+    assert gate.faults([], [ENTRY], [], ["eq-25"], known) == []
+    gone = {**known[-1], "name": "eq-26"}
+    told = gate.faults([], [ENTRY], [], ["eq-25"], [*known, gone])
+    assert told == ["accepted, but no longer compared: eq-26"]
+    lapsed = ENTRY | {"holds": "no", "problem": "oh"}
+    assert gate.faults([], [lapsed], [], ["eq-25"], known) == ["no longer holds: eq-25: oh"]
+    said = gate.summary([], [ENTRY], [], {})
+    assert "1 equations and sentences" in said and "Every result is as accepted." in said
+    assert "PASSED" not in said and "nothing to compare" not in said
 
 
 def told(wrong=(), ledger=(ENTRY,), figures=("fig6", "fig7"), **cells):

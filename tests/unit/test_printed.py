@@ -11,7 +11,7 @@ from stronge1994.figures.fig7 import curves as fig7
 from stronge1994.figures.fig9 import curves as fig9
 from stronge1994.figures.shared.curves import curves_below_one
 from stronge1994.names import PRINTED
-from stronge1994.printed import impact, slip
+from stronge1994.printed import impact
 from tests.workflow.project import config, sources
 
 BETA, ZETA2 = 3.5, 1.21
@@ -24,16 +24,6 @@ def test_velocity_is_exact_below_both_limits_and_above(e):
     x = np.concatenate([np.linspace(0, limit - 1e-9, 60), np.linspace(end, 3 * end, 10)])
     velocity, _, _ = impact.rebound(x, BETA, ZETA2, e)
     assert np.abs(velocity - lumped.rebound(x, BETA, ZETA2, e).velocity).max() < 1e-12
-
-
-@pytest.mark.parametrize("e", [0.4, 0.7, 1.0])
-def test_equations_17_to_20_lead_to_the_factors_of_21_that_the_scan_has_lost(e):
-    mu, late = 0.3, np.pi / 2 * (1 + e * np.linspace(0.05, 0.95, 10))
-    v1 = -mu * slip.eq_21_incidence(late, BETA, ZETA2, 1.0, e)
-    at_stick = slip.eq_19b_velocity(late, v1, -1.0, mu, BETA, 1.0, e)
-    friction = slip.stick_force_rate(0.0, 0.0, at_stick, 1 / BETA, np.sqrt(BETA / ZETA2))
-    normal = slip.eq_20_normal_force_rate(late, -1.0, 1.0, 1.0, e)
-    assert np.abs(slip.eq_17_excess_rate(friction, normal, mu)).max() < 1e-12
 
 
 def test_peaks_hold_up_to_beta_only():

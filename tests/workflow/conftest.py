@@ -106,8 +106,6 @@ def show(tab, explorer):
         tab.resize(width, height, mobile=width < 500)
         tab.open("about:blank")
         tab.open(f"{explorer.as_uri()}{query}#{address}")
-        if height > 2000:  # the closer look is in view, and drawn a little later
-            tab.page.wait_for_selector("#forces .cursor", state="attached")
         return tab
 
     yield opened

@@ -7,28 +7,28 @@ from pathlib import Path
 
 from playwright._impl._driver import compute_driver_executable
 
-from stronge1994.explorer import page
-
 FOLDER = Path(__file__).parents[2] / "workflow/explorer"
 # Those that do not look at their page as they are loaded.
-SCRIPTS = ["solver", "continuum", "check", "models", "flight", "charts", "arrows", "patch"]
-SCRIPTS += ["diagram", "words", "files", "lens", "stage"]
+SCRIPTS = [
+    "solver",
+    "check",
+    "models",
+    "flight",
+    "charts",
+    "arrows",
+    "words",
+    "files",
+    "lens",
+    "stage",
+]
 # What is drawn is kept in elements that nobody sees, by their ids.
-BASE = f"""
-const CONTINUUM_ERROR = {page.CONTINUUM_ERROR};
-const drawn = {{}};
-const document = {{ getElementById: (id) => drawn[id] ??= {{
-  style: {{}}, clientWidth: 640, clientHeight: 360, getComputedTextLength: () => 60,
-  classList: {{ toggle: (name, on) => (document.getElementById(id)[`class ${{name}}`] = !!on) }},
-  querySelectorAll: () => [], setAttribute(name, value) {{ this[name] = value; }},
-  querySelector: (part) => document.getElementById(`${{id}} ${{part}}`),
-}} }};
-// One impact as a page knows it.
-function impact_of(style, groups) {{
-  const contact = models.contact(style, groups);
-  return {{ ...groups, sign: 1, contact, states: {{}}, phases: models.phases(contact.rows),
-    limit: models.slip_throughout_limit(style, groups) }};
-}}
+BASE = """
+const drawn = {};
+const document = { getElementById: (id) => drawn[id] ??= {
+  style: {}, clientWidth: 640, clientHeight: 360, getComputedTextLength: () => 60,
+  classList: { toggle: (name, on) => (document.getElementById(id)[`class ${name}`] = !!on) },
+  setAttribute(name, value) { this[name] = value; },
+} };
 """
 # Answers each line, an expression, with its value or its error.
 PROGRAM = """

@@ -32,11 +32,11 @@ class Page(HTMLParser):
         if "id" in found:
             self.ids.append(found["id"])
         self._in_bar |= tag == "nav" and found.get("class") == "site"
-        if tag == "a" and "href" in found:
+        if tag in ("a", "use") and "href" in found:
             self.links.append(found["href"])
             self.bar += [found["href"]] * self._in_bar
         self.resources += [found[key] for key in ("src", "srcset", "data") if found.get(key)]
-        self.resources += [found["href"]] if tag == "link" else []
+        self.resources += [found["href"]] if tag in ("link", "image") and "href" in found else []
         if tag in ("input", "select"):
             self._select = self.controls[found.get("id", "")] = {**found, "options": []}
         elif tag == "option":

@@ -8,8 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from stronge1994 import reference_data
-from stronge1994.ledger import entries
+from stronge1994 import paper, reference_data
 from stronge1994.settings import config as configuration
 
 ROOT = Path(__file__).parents[2]
@@ -34,8 +33,7 @@ def config():
 @functools.cache
 def ledger():
     """Entries of the ledger."""
-    schema = reference_data.load_yaml(ROOT / "workflow/schemas/ledger.schema.yaml")
-    return entries.load(ROOT / "data/stronge1994/ledger.yaml", schema)
+    return paper.entries(sources()["stronge1994"]["facts"])
 
 
 @functools.cache

@@ -33,13 +33,13 @@ for script, *modules in json.load(sys.stdin):
     os.wait()
 """
 # Modules that a script imports by names made at run time.
-BY_NAME = {"solve": r"/curves\.py$", "draw": r"/drawing\.py$", "check_ledger": r"/ledger/\w+\.py$"}
+BY_NAME = {"solve": r"/curves\.py$", "draw": r"/drawing\.py$"}
 
 
 @pytest.fixture(scope="module")
 def inputs():
     """Inputs of each job, `{(script, module, ...): paths}`, as a dry run names them."""
-    asked = ["all", "site", "accept", "fig6", "--dry-run", "--forceall", "--nolock"]
+    asked = ["all", "accept", "fig6", "--dry-run", "--forceall", "--nolock"]
     said = Project(ROOT).run(*asked, "--workflow-profile", "none").stdout
     found = {}
     for line in re.findall(r"^    input: (.*)$", said, flags=re.M):
@@ -82,6 +82,6 @@ def test_no_import_waits_until_a_function_is_called():
     assert found == {
         "src/stronge1994/solving.py",
         "src/stronge1994/figures/shared/drawing/__init__.py",
-        "src/stronge1994/ledger/__init__.py",
+        "src/stronge1994/paper/__init__.py",
         "src/stronge1994/pages/student.py",  # the text of a cell
     }

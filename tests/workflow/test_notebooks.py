@@ -1,5 +1,6 @@
 """The lectures: how they fail, what their texts state, and the notebooks for students."""
 
+import ast
 import inspect
 import json
 import re
@@ -29,39 +30,39 @@ def code_of(book):
 
 
 def lecture(name):
-    """A lecture as it is kept, and its cells with the rows of its table."""
-    book = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
-    return book, stated_numbers.read(FOLDER / f"{name}.yaml", book.cells)
+    """A lecture as it is kept."""
+    return nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
 
 
-def written(path, *sources, table=""):
-    """A notebook of these cells of code, at `path`, and its table beside it."""
+def written(path, *sources, check=""):
+    """A notebook of these cells of code and of a text with this check, at `path`."""
     cells = [nbformat.v4.new_code_cell(source) for source in sources]
     cells.append(nbformat.v4.new_markdown_cell("Three is 3, not four.", id="said"))
+    if check:
+        source = f"from stronge1994.pages.stated_numbers import says\n{check}"
+        cells.append(nbformat.v4.new_code_cell(source, metadata={"tags": ["check"]}, id="check"))
     path.write_text(nbformat.writes(nbformat.v4.new_notebook(cells=cells)), encoding="utf-8")
-    path.with_suffix(".yaml").write_text(f"numbers: [{table}]", encoding="utf-8")
     return path
 
 
 def run(notebook, folder):
     """What is made of a notebook, by its kind."""
     results = {kind: folder / kind for kind in KINDS}
-    lectures.run(notebook, notebook.with_suffix(".yaml"), TEMPLATES, results)
+    lectures.run(notebook, TEMPLATES, results)
     return {kind: path.read_text(encoding="utf-8") for kind, path in results.items()}
 
 
-def executed(texts, sliders=False):
-    """Run cells in this process, sliders to their ends if asked, and compare rows of texts."""
+def executed(book, sliders=False):
+    """Run cells of code in this process, with sliders to their ends if asked."""
     matplotlib.use("Agg")
     names = {}
     with matplotlib.rc_context():
         try:
-            for cell, of_text in texts:
-                if cell.cell_type == "code":
-                    exec(re.sub(r"^ +%pip .*", "    raise", cell.source, flags=re.M), names)
-                    names |= {"play": at_both_ends} if sliders and "play" in names else {}
-                    plt.close("all")
-                stated_numbers.compare(names, of_text)
+            for cell in code_of(book):
+                source = re.sub(r"^ +%pip .*", "    raise", cell.source, flags=re.M)
+                exec(compile(source, cell.id, "exec"), names)
+                names |= {"play": at_both_ends} if sliders and "play" in names else {}
+                plt.close("all")
         finally:
             plt.close("all")
 
@@ -78,7 +79,6 @@ def at_both_ends(show, **ranges):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_wrong_solver_makes_a_stated_number_wrong(name, monkeypatch):
-    _, texts = lecture(name)
     solve = stick_slip.solve
 
     def too_soft(impacts, *trace):
@@ -86,45 +86,74 @@ def test_a_wrong_solver_makes_a_stated_number_wrong(name, monkeypatch):
 
     monkeypatch.setattr(stick_slip, "solve", too_soft)
     monkeypatch.chdir(FOLDER)
-    with pytest.raises(stated_numbers.WrongNumberError):
-        executed(texts)
+    with pytest.raises(AssertionError) as failure:
+        executed(lecture(name))
+    assert any(str(entry.path).endswith("-check") for entry in failure.traceback)
 
 
-SAYS = "{cell: said, says: 'is 3, not', "
-
-
-def test_no_notebook_and_no_page_has_the_checks(tmp_path):
-    made = run(
-        written(tmp_path / "good.ipynb", "three = 3", table=f"{SAYS}gives: three}}"), tmp_path
-    )
+def test_no_page_and_no_student_has_the_checks(tmp_path):
+    made = run(written(tmp_path / "good.ipynb", "three = 3", check="says('is 3', three)"), tmp_path)
     assert "three = 3" in re.sub("<.*?>", "", made["page"])
-    assert not [kind for kind, text in made.items() if "compare" in text or "stated_num" in text]
+    assert not [kind for kind, text in made.items() if "says(" in text or "stated_num" in text]
 
 
 @pytest.mark.parametrize(
-    ("row", "words"),
+    ("check", "words"),
     [
-        ("gives: three + 1}", "said: the text says 'is 3, not', its cells give 4"),
-        ("gives: '[three, 3]'}", "said: the text says 'is 3, not', its cells give 3, 3"),
-        ("gives: four}", "said: .*, its cells give no answer: NameError: name 'four' is not defi"),
-        ("holds: four, given: four = three > 3}", "said: .*, its cells give no truth of four"),
+        ("says('is 3, not', three + 1)", "said: the text says 'is 3, not', its cells give 4"),
+        ("says('is 3, not', [three, 3])", "said: the text says 'is 3, not', its cells give 3, 3"),
+        ("says('is 3')", "said: the text says 'is 3', its cells give nothing"),
+        (
+            "assert (three\n> 3), 'not four'",
+            "said: the text says 'not four', its cells give no truth of three > 3",
+        ),
+        (
+            "says('is 3', four)",
+            r"cell 3: says\('is 3', four\): NameError: name 'four' is not defi",
+        ),
+        ("says('four', 4)", ".*ValueError: 'four' has no number: assert belongs here"),
+        ("says('is 4', 4)", "said: the text does not say 'is 4'"),
+        ("words = 'is 3'\nsays(words, 3)", "said: line 3 of its check quotes no words of the text"),
+        ("assert three", "said: line 2 of its check quotes no words of the text"),
+        ("three = says('is 3', 3)", "said: its check leaves three behind; let a function make it"),
+        ("import sys", "said: its check leaves sys behind"),
+        ("says('is 3' 3", "said: line 2 of its check: "),
     ],
 )
-def test_a_text_that_states_what_its_cells_do_not_give_fails_the_run(row, words, tmp_path):
+def test_a_text_that_states_what_its_cells_do_not_give_fails_the_run(check, words, tmp_path):
     """In one line: the lecture, the cell, both numbers."""
-    bad = written(tmp_path / "bad.ipynb", "three = 3", table=SAYS + row)
+    bad = written(tmp_path / "bad.ipynb", "three = 3", check=check)
     with pytest.raises(lectures.NotebookError, match=rf"^bad\.ipynb, {words}") as refusal:
         run(bad, tmp_path)
     assert "\n" not in str(refusal.value)
 
 
+def test_a_check_stands_below_a_text():
+    said = nbformat.v4.new_markdown_cell("Three is 3.", id="said")
+    check = nbformat.v4.new_code_cell("", metadata={"tags": ["check"]}, id="check")
+    for cells in ([check, said], [said, check, check]):
+        assert stated_numbers.fault(cells).startswith("check: a check stands directly below the te")
+    assert stated_numbers.fault([said, check, said]) == ""
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_a_throw_to_play_is_that_of_its_text(name):
-    """Its table quotes each address whole, so a run compares all numbers there."""
-    for cell, rows in lecture(name)[1]:
-        quoted = " ".join(row["says"] for row in rows if "gives" in row)
-        for address in re.findall(r"explorer\.html\S*?(#[^)]*)", cell.source):
-            assert address in quoted, cell.id
+    """A check quotes each address whole, so a run compares all numbers there."""
+    cells = lecture(name).cells
+    checks = {text.id: check.source for text, check in stated_numbers.checked(cells)}
+    for cell in cells:
+        if cell.cell_type == "markdown":
+            found = stated_numbers.quotations(checks.get(cell.id, ""))
+            compared = [words for words, node in found if isinstance(node, ast.Call)]
+            for address in re.findall(r"explorer\.html\S*?(#[^)]*)", cell.source):
+                assert any(address in words for words in compared), cell.id
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_whoever_opens_a_lecture_sees_its_checks_folded(name):
+    checks = [check for _, check in stated_numbers.checked(lecture(name).cells)]
+    assert len(checks) > 20
+    assert all(check.metadata["jupyter"] == {"source_hidden": True} for check in checks)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -132,7 +161,7 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
     project, _ = first_run
     pages = {kind: (project / f"figures/{kind}{name}.html").read_text() for kind in PAGES}
     for page in pages.values():
-        assert not re.search(r'src="(?!explorer\.html\?stage(=micro)?#|data:)|url\(|@import', page)
+        assert not re.search(r'src="(?!explorer\.html\?stage#|data:)|url\(|@import', page)
         linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
         assert all(re.fullmatch(r"[\w/]+\.(html|csv|ipynb)", file) for file in linked)
         assert not [file for file in linked if file.startswith("answers_")], "of the teacher"
@@ -146,12 +175,10 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_cells_need_the_package_alone_and_check_nothing(name):
-    book, texts = lecture(name)
-    source = "\n".join(cell.source for cell in code_of(book))
-    assert any(rows for _, rows in texts) and not re.search(
-        r"stronge1994|^ *assert ", source, flags=re.M
-    )
-    assert not [cell.id for cell in code_of(book) if cell.outputs or cell.execution_count]
+    cells = code_of(lecture(name))
+    source = "\n".join(cell.source for cell in cells if not stated_numbers.is_check(cell))
+    assert not re.search(r"stronge1994|^ *assert ", source, flags=re.M)
+    assert not [cell.id for cell in cells if cell.outputs or cell.execution_count]
 
 
 @pytest.fixture
@@ -168,7 +195,7 @@ def of_student(tmp_path, monkeypatch):
     def made(name, results=None):
         if results:
             (tmp_path / "results").symlink_to(results)
-        return student.notebook(lecture(name)[0], cells)
+        return student.notebook(lecture(name), cells)
 
     (tmp_path / "empty").mkdir()
     monkeypatch.chdir(tmp_path / "empty")
@@ -200,7 +227,7 @@ def test_a_student_may_edit_numbers_and_needs_no_file(name, edit, of_student, fi
     book = of_student(name, first_run[0] / "results")
     for cell in code_of(book):
         cell.source = re.sub(*EDITS[edit], cell.source)
-    executed([(cell, []) for cell in book.cells], sliders=edit == "as it is")
+    executed(book, sliders=edit == "as it is")
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -212,7 +239,7 @@ def test_the_notebook_for_students_has_no_answers_and_all_that_it_needs(
     text = nbformat.writes(book)
     assert len(text) < 150_000 and not re.search(r"Answer to exercise|\.\./|\?stage|mplstyle", text)
     assert code_of(book)[0].id == "install" and book.metadata.kernelspec.name == "python3"
-    kept = {cell.id: cell for cell in lecture(name)[0].cells}
+    kept = {cell.id: cell for cell in lecture(name).cells}
     tags = {tag for cell in book.cells for tag in kept.get(cell.id, cell).metadata.get("tags", [])}
     games = [
         cell.source for cell in code_of(book) if re.search(r"^play\(", cell.source, flags=re.M)

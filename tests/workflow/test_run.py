@@ -161,7 +161,7 @@ def test_a_job_that_raises_is_named_at_the_end_and_the_others_are_done(finished)
     assert finished.jobs()[1] == missing
 
 
-LAPSED = "    verdict: confirmed\n", "    verdict: confirmed within rounding\n"  # of Eq. 1
+LAPSED = '$ beside it",', '$ beside it",\n    verdict="confirmed within rounding",'  # of Eq. 1
 WRONG = """
 solve = curves
 def curves(stiffness_ratio, **others):
@@ -187,7 +187,7 @@ def test_a_wrong_solver_fails_the_run_in_any_folder_and_another_setting_does_not
     assert "CalledProcessError" not in said and not (project / "results/gates/fig3.txt").exists()
     assert (project / "figures/fig3.svg").is_file()
     changed(project / f"{FOLDER}/fig3/curves.py", new=WRONG)
-    changed(project / "data/stronge1994/ledger.yaml", *LAPSED)
+    changed(project / "src/stronge1994/paper/dynamics.py", *LAPSED)
     result = project.run(**given)
     said = " ".join(result.stdout.split())
     assert result.returncode == 1 and "PASSED" not in said, said

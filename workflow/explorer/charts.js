@@ -1,10 +1,9 @@
 "use strict";
 
-// Charts as SVG markup, written anew at every change. They are as wide as they stand on the screen,
-// so that type keeps its size on a phone. Drawing only: the impact has been solved before.
+// The chart over all incidences as SVG markup, written anew at every change. It is as wide as it stands
+// on the screen, so that type keeps its size on a phone.
 const charts = (() => {
-  const HEIGHT = 190; // of the charts over time
-  const tall = (width) => Math.min(262, Math.max(190, 0.56 * width)); // of that over incidence
+  const tall = (width) => Math.min(262, Math.max(190, 0.56 * width));
   const MARGIN = { right: 10, top: 20, bottom: 20 };
   const LETTER = 7.6; // width of one, at most
   const CURVE = 100; // vertices
@@ -21,8 +20,9 @@ const charts = (() => {
     return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
   }
 
-  // Scales, frame and ticks of a chart over the ranges x and y; `at` inverts a place on the screen.
-  function axes(svg, [width, height], x, y, x_ticks = ticks(...x, width / 80)) {
+  // Scales, frame and ticks over the ranges x and y; `at` inverts a place on the screen.
+  function axes(svg, width, x, y, x_ticks = ticks(...x, width / 80)) {
+    const height = tall(width);
     const y_ticks = ticks(...y, 5);
     const left = Math.max(42, 10 + LETTER * Math.max(...y_ticks.map((one) => number(one).length)));
     const right = width - MARGIN.right;
@@ -67,58 +67,8 @@ const charts = (() => {
       height="16"/><text class="word" x="${left + width / 2}" y="14">${word}</text>`;
   }
 
-  const phase_bands = ({ contact, phases, sign }, scales) =>
-    phases
-      .map((phase) => {
-        const arrow = sign * phase.side > 0 ? "\u2192" : "\u2190";
-        const stick = contact.style === "lumped" ? ["stick"] : ["middle sticks", "stick"];
-        const words = phase.sticks ? stick : [`slip ${arrow}`, arrow];
-        return band(phase.sticks ? "stick" : "slip", phase.start, phase.end, words, scales);
-      })
-      .join("");
-
-  // The cursor is moved alone, without a new chart.
-  const cursor = (...dots) =>
-    `<g class="cursor"><line y1="${MARGIN.top}" y2="${HEIGHT - MARGIN.bottom}"/>` +
-    dots.map((style) => `<circle class="${style}" r="4.5"/>`).join("") + "</g>";
-
-  function move_cursor(svg, { X, Y }, t, values) {
-    const line = svg.querySelector(".cursor line");
-    line.setAttribute("x1", X(t));
-    line.setAttribute("x2", X(t));
-    svg.querySelectorAll(".cursor circle").forEach((dot, i) => {
-      dot.setAttribute("cx", X(t));
-      dot.setAttribute("cy", Y(values[i]));
-    });
-  }
-
   const guide = (place, { X, bottom }) =>
     `<line class="guide" x1="${X(place)}" x2="${X(place)}" y1="${MARGIN.top}" y2="${bottom}"/>`;
-
-  function forces(svg, width, impact) {
-    const scales = axes(svg, [width, HEIGHT], [0, 2], [-1.1, 1.1], [0, 0.5, 1, 1.5, 2]);
-    const column = (name) => impact.contact.rows.map((row) => row[name]);
-    const [time, normal, friction] = ["time", "normal", "friction"].map(column);
-    svg.innerHTML =
-      phase_bands(impact, scales) + scales.markup + guide(1, scales) +
-      line("limit", time, normal.map((force) => -force), scales) +
-      line("friction", time, friction, scales) +
-      line("normal", time, normal, scales) + cursor("normal", "friction");
-    return scales;
-  }
-
-  function velocity(svg, width, impact) {
-    const column = (name) => impact.contact.rows.map((row) => row[name]);
-    const [time, velocity] = ["time", "velocity"].map(column);
-    const [low, high] = [Math.min(0, ...velocity), Math.max(0, ...velocity)];
-    const room = 0.08 * (high - low || 1);
-    const y = [low - room, high + room];
-    const scales = axes(svg, [width, HEIGHT], [0, 2], y, [0, 0.5, 1, 1.5, 2]);
-    svg.innerHTML =
-      phase_bands(impact, scales) + scales.markup + guide(1, scales) +
-      line("velocity", time, velocity, scales) + cursor("velocity");
-    return scales;
-  }
 
   // What can be drawn against incidence: its name, the value for what a model found, and what is
   // drawn beside it. Over angles the unit is the speed S before the impact.
@@ -150,10 +100,10 @@ const charts = (() => {
   // Largest incidence of the chart for this impact.
   const widest = ({ limit, x }) => Math.max(8, 1.25 * limit, 1.08 * x);
 
-  // The curves of the models over all incidences up to `far`, thresholds among their vertices, with
-  // the present impact on each.
-  function incidence(svg, width, impact, view, list, far) {
-    const { mu, x, beta, zeta2, e, limit, contact } = impact;
+  // The curves of both contacts over all incidences up to `far`, thresholds among their vertices, with
+  // the present impact on each. The one with the spring lies on top, and the bands are its regimes.
+  function incidence(svg, width, impact, view, far) {
+    const { mu, x, beta, zeta2, e, limit } = impact;
     const { over_angle, quantity, value, beside } = VIEWS[view];
     const to_angle = (incidence) => (Math.atan(mu * incidence) * 180) / Math.PI;
     const place = (incidence) => (over_angle ? to_angle(incidence) : incidence);
@@ -163,14 +113,12 @@ const charts = (() => {
     const xs = over_angle
       ? even.map((share) => Math.tan((share * 89.95 * Math.PI) / 180) / mu)
       : even.map((share) => share * far);
-    const continuum_slides = beta + e * (beta - zeta2);
-    const limits = [zeta2, beta, limit, (1 + e) * beta, continuum_slides];
+    const limits = [zeta2, beta, limit, (1 + e) * beta];
     xs.push(...limits.filter((threshold) => threshold > 0 && place(threshold) < range[1]));
     xs.sort((a, b) => a - b);
     const cosine = (incidence) => 1 / Math.hypot(1, mu * incidence);
-    const curves = list.map((style) => {
-      const solve = models.curve(style, impact);
-      const measure = (one) => value(solve(one), mu, cosine(one));
+    const curves = ["lumped", "rigid"].map((style) => {
+      const measure = (one) => value(models.state(style, { ...impact, x: one }), mu, cosine(one));
       return { style, ys: xs.map(measure), present: measure(x) };
     });
     const beyond = beside ? xs.map((one) => beside(cosine(one))) : [];
@@ -178,27 +126,22 @@ const charts = (() => {
     const [low, high] = [Math.min(0, ...every), Math.max(0.1, ...every)];
     const room = 0.06 * (high - low);
     const y = [low < 0 ? low - room : 0, high + room];
-    const scales = axes(svg, [width, tall(width)], range, y, x_ticks);
+    const scales = axes(svg, width, range, y, x_ticks);
     const places = xs.map(place);
     const edges = [0, zeta2, limit, Infinity].map((edge) => Math.min(place(edge), range[1]));
-    // The bands are those of the model that is looked at closer.
     const bands = REGIMES.map(([style, ...words], i) =>
       edges[i + 1] > edges[i] ? band(style, edges[i], edges[i + 1], words, scales) : "");
     const here = Math.min(place(x), range[1]);
-    // The model that the pictures show lies on top.
-    const drawn = [...curves].sort((a, b) =>
-      (a.style === contact.style) - (b.style === contact.style));
-    const none = curves.length ? "" : `<text class="word" x="${width / 2}" y="${tall(width) / 2}">No model is
-      chosen: tick one below.</text>`;
+    const drawn = [...curves].reverse();
     svg.innerHTML =
       bands.join("") + scales.markup + guide(here, scales) +
       (beside ? line("normal", places, beyond, scales) : "") +
       drawn.map(({ style, ys }) => line(`curve ${style}`, places, ys, scales)).join("") +
       drawn.map(({ style, present }) => `<circle class="present ${style}" cx="${scales.X(here)}"
-        cy="${scales.Y(present)}" r="${style === contact.style ? 6 : 4}"/>`).join("") + none;
+        cy="${scales.Y(present)}" r="${style === "lumped" ? 6 : 4}"/>`).join("");
     const angle = (event) => (over_angle ? scales.at(event) : to_angle(scales.at(event)));
-    return { ...scales, angle, quantity, xs, curves };
+    return { angle, quantity, xs, curves };
   }
 
-  return { forces, velocity, incidence, widest, move_cursor, number };
+  return { incidence, widest, number };
 })();

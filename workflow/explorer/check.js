@@ -1,21 +1,18 @@
 "use strict";
 
-// The solvers of this page against answers of the package, which the page carries.
+// The solver of this page against answers of the package, which the page carries.
 const check = (() => {
-  const ACCURACY = { lumped: 1e-9, continuum: CONTINUUM_ERROR };
+  const ACCURACY = 1e-9; // of the incidence, and at least absolute
 
-  // The answers from which the solvers differ. An answer is the groups x, m2/m1, zeta^2, e and for
-  // the continuum its loss; velocity, peak friction and for the lumped model dissipation, regime.
+  // The answers from which the solver differs. An answer is the groups x, m2/m1, zeta^2 and e;
+  // velocity, peak friction, dissipation and regime.
   function differing(answers) {
     return answers.filter(([groups, wanted]) => {
-      const lumped = groups.length === 4;
-      const state = lumped ? solver.rebound(...groups) : continuum.rebound(...groups);
+      const state = solver.rebound(...groups);
       const numbers = [state.velocity, state.peak_friction, state.dissipation];
-      const size = lumped ? ACCURACY.lumped * Math.max(groups[0], 1) : ACCURACY.continuum;
-      // The continuum says no regime, and its work of friction is not held to this accuracy.
-      const close = wanted.every((number, i) =>
-        typeof number !== "number" || Math.abs(number - numbers[i]) <= size);
-      return !close || (lumped && state.regime !== wanted[3]);
+      const size = ACCURACY * Math.max(groups[0], 1);
+      const close = numbers.every((number, i) => Math.abs(number - wanted[i]) <= size);
+      return !close || state.regime !== wanted[3];
     });
   }
 

@@ -10,8 +10,8 @@ const files = (() => {
   // A field with a comma or a quotation mark needs quotation marks round it.
   const field = (value) => (/[",]/.test(value) ? `"${value.replaceAll('"', '""')}"` : `${value}`);
 
-  // The impact and what the models say about it, as comments; then the curves of the chart.
-  function csv(impact, state, found, { xs, curves, quantity }) {
+  // The impact and what both contacts say about it, as comments; then the curves of the chart.
+  function csv(impact, state, { xs, curves, quantity }) {
     const given = [
       ["angle of incidence theta [deg]", state.angle],
       ["friction coefficient mu [1]", impact.mu],
@@ -25,11 +25,14 @@ const files = (() => {
       ["spin, clockwise [rad/s]", state.spin],
       ["radius [mm]", state.radius],
     ];
-    const said = found.flatMap(({ name, velocity, peak_friction, dissipation }) => [
-      [`${name}: v1(tf)/(mu v2(0)) [1]`, velocity],
-      [`${name}: largest F1/(mu largest F2) [1]`, peak_friction],
-      [`${name}: work of friction/(mu^2 m2 v2(0)^2) [1]`, dissipation],
-    ]);
+    const said = curves.flatMap(({ style }) => {
+      const { velocity, peak_friction, dissipation } = models.state(style, impact);
+      return [
+        ["v1(tf)/(mu v2(0)) [1]", velocity],
+        ["largest F1/(mu largest F2) [1]", peak_friction],
+        ["work of friction/(mu^2 m2 v2(0)^2) [1]", dissipation],
+      ].map(([unit, value]) => [`${models.NAMES[style]}: ${unit}`, value]);
+    });
     const head = ["incidence v1(0)/(mu v2(0)) [1]", "angle of incidence theta [deg]"];
     head.push(...curves.map(({ style }) => `${models.NAMES[style]}: ${quantity}`));
     const rows = xs.map((x, i) => [
@@ -88,7 +91,8 @@ const files = (() => {
       }, [""]);
     };
     const top = above.flatMap(wrapped);
-    canvas.height = PIXELS * (height + LINE * (top.length + below.length) + 3 * MARGIN);
+    const foot = below.flatMap((line) => (typeof line === "string" ? wrapped(line) : [line]));
+    canvas.height = PIXELS * (height + LINE * (top.length + foot.length) + 3 * MARGIN);
     pen.scale(PIXELS, PIXELS);
     pen.fillStyle = backgroundColor;
     pen.fillRect(0, 0, canvas.width, canvas.height);
@@ -101,7 +105,7 @@ const files = (() => {
     top.forEach((text) => write(text));
     pen.drawImage(image, MARGIN, y, width, height);
     y += height + MARGIN / 2;
-    for (const line of below) {
+    for (const line of foot) {
       if (typeof line === "string") {
         write(line);
         continue;

@@ -6,12 +6,10 @@ const page = (() => {
   const element = (id) => document.getElementById(id);
   const SLIDERS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio", "speed", "spin",
     "table", "compliance", "radius", "gravity"];
-  const CHOICES = ["view", "loss", "beside"];
   // Compliance along the surface, over that of the body; radius in mm, gravity in m/s^2.
   const OPENING = {
     angle: 50, friction: 0.4, restitution: 1, poisson_ratio: 0.3, mass_ratio: 3.5, compliance: 1,
-    speed: 5, spin: 0, table: 0, radius: 25, gravity: 9.81, loss: "viscous", beside: "rigid",
-    view: "velocity", models: models.TOGGLES,
+    speed: 5, spin: 0, table: 0, radius: 25, gravity: 9.81, view: "velocity",
   };
   const ALWAYS = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]; // in the address
   // Less is none: a stiffer spring has too many phases, and a ball would fall for too long.
@@ -24,17 +22,14 @@ const page = (() => {
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   const root = document.documentElement;
-  // `explorer.html?stage` is the stage alone, for the frames of the lectures; `?stage=micro` stops the
-  // show where micro-slip is easy to see. Keys that the stage does not use turn slides.
-  const asked = new URLSearchParams(location.search).get("stage");
-  const embedded = asked !== null;
+  // `explorer.html?stage` is the stage alone, for the frames of the lectures. Keys that the stage does
+  // not use turn slides.
+  const embedded = new URLSearchParams(location.search).has("stage");
 
   const state = { ...OPENING };
   let impact; // the first bounce, solved from the state
   let flights; // of both balls
-  let styles; // the models that fly them
-  let list; // the models shown in the curves
-  const scales = {}; // of the charts
+  let chart; // what it shows, and its scale
   let told; // how far the show was when the line below the stage was written
   let frozen; // the end of the axis of incidence while its chart is dragged
   let playing = false;
@@ -71,34 +66,24 @@ const page = (() => {
       if (is_allowed(name, value)) values[name] = value;
       else refuse(name, given.get(name), between(name));
     }
-    for (const name of CHOICES) {
-      if (!given.has(name)) continue;
-      const known = [...element(name).options].map((option) => option.value);
-      if (known.includes(given.get(name))) values[name] = given.get(name);
-      else refuse(name, given.get(name), known.join(", "));
-    }
-    const wanted = given.get("models")?.split(" ");
-    if (wanted?.every((name) => name === "" || models.TOGGLES.includes(name))) {
-      values.models = models.TOGGLES.filter((name) => wanted.includes(name));
-    } else if (wanted) refuse("models", given.get("models"), models.TOGGLES.join(", "));
+    const view = given.get("view") ?? OPENING.view;
+    const known = [...element("view").options].map((option) => option.value);
+    if (known.includes(view)) values.view = view;
+    else refuse("view", view, known.join(", "));
     return values;
   }
 
-  // What is as the page opens is left out, but for the first controls. The models are named where
-  // some are left out.
+  // What is as the page opens is left out, but for the first controls.
   function address(values = state) {
     const written = (value) => typeof value === "number" ? Number(value.toFixed(4)) : value;
     const said = Object.keys(OPENING)
-      .filter((name) => name !== "models")
       .filter((name) => ALWAYS.includes(name) || values[name] !== OPENING[name])
       .map((name) => [name, written(values[name])]);
-    if (values.models.length < models.TOGGLES.length) said.push(["models", values.models.join(" ")]);
     return new URLSearchParams(said).toString();
   }
 
   // The same of the throw alone, whatever is looked at.
-  const throw_address = (values) =>
-    address({ ...values, beside: OPENING.beside, view: OPENING.view, models: OPENING.models });
+  const throw_address = (values) => address({ ...values, view: OPENING.view });
 
   // ---- the throw ----------------------------------------------------------------------------
 
@@ -108,37 +93,24 @@ const page = (() => {
   // The throw as the flights need it, in SI, with the groups of its impacts.
   function thrown() {
     const { friction: mu, restitution: e, mass_ratio: beta } = state;
-    const springs = state.beside === "rigid";
-    const own = stiffness_ratio(state.poisson_ratio);
-    const groups = { mu, e, beta, zeta2: springs ? own * (state.compliance < LEAST ? 0 : state.compliance) : own };
+    const compliance = state.compliance < LEAST ? 0 : state.compliance;
+    const groups = { mu, e, beta, zeta2: compliance * stiffness_ratio(state.poisson_ratio) };
     const radius = state.radius / 1000;
     const table = state.table > 4 * radius ? state.table : 0;
     const gravity = state.gravity < LEAST_GRAVITY ? 0 : state.gravity;
     return { ...state, radius, table, gravity, groups };
   }
 
-  const continuum_style = () => models.style_of(state.restitution, state.loss);
+  const LANES = { upper: "rigid", lower: "lumped" }; // the contacts of both balls
 
-  // The models that fly: the spring below a rigid contact, or the continuum below the spring.
-  const styles_of_lanes = () => state.beside === "rigid" ? { upper: "rigid", lower: "lumped" }
-    : { upper: "lumped", lower: continuum_style() };
-
-  // The impact that is looked at closer is the first bounce of the lower lane, if its model answers.
+  // Both flights, and the impact that the chart shows: the first bounce of the ball with the spring.
   function solved(throw_) {
-    flights = {};
-    for (const [lane, style] of Object.entries(styles)) {
-      if (!models.SPRINGS.includes(style) && !continuum.covers(state.restitution)) continue;
-      flights[lane] = flight.fly(throw_, (x) => models.contact(style, { ...throw_.groups, x }));
-    }
-    const parts = flights.lower ?? flights.upper;
-    const { x, contact, ball, after, sign } = parts.find(({ kind }) => kind === "bounce");
-    const groups = { ...throw_.groups, x };
-    return {
-      ...groups, contact, sign, before: ball, after, states: { [contact.style]: contact.state },
-      result: solver.rebound(x, groups.beta, groups.zeta2, groups.e), // of the lumped model
-      limit: models.slip_throughout_limit(contact.style, groups),
-      phases: models.phases(contact.rows),
-    };
+    const { groups } = throw_;
+    flights = Object.fromEntries(Object.entries(LANES).map(([lane, style]) =>
+      [lane, flight.fly(throw_, (x) => models.contact(style, { ...groups, x }))]));
+    const { x, ball } = flights.lower.find(({ kind }) => kind === "bounce");
+    const limit = solver.slip_throughout_limit(groups.beta, groups.zeta2, groups.e);
+    return { ...groups, x, before: ball, limit };
   }
 
   // ---- drawing ------------------------------------------------------------------------------
@@ -148,68 +120,17 @@ const page = (() => {
     stage.show(now);
     element("time").value = now;
     show_story();
-    if (scales.forces) show_closer();
   }
 
-  // The line below the stage: of a throw with springs what has happened up to now, else what the
-  // model of the lower lane says of the first bounce.
+  // The line below the stage: what has happened up to now.
   function show_story() {
-    const bounces = ({ kind }) => kind === "bounce";
     const { bounces: count, over } = stage.progress(now);
     if (told === `${count} ${over}`) return;
     told = `${count} ${over}`;
-    const said = styles.upper !== "rigid" ? `${words.sentence(impact)} ${words.centre(impact)}`
-      : words.story({ upper: flights.upper.filter(bounces), lower: flights.lower.filter(bounces) },
-        count, over, impact.zeta2 > 0);
+    const bounces = (parts) => parts.filter(({ kind }) => kind === "bounce");
+    const both = { upper: bounces(flights.upper), lower: bounces(flights.lower) };
+    const said = words.story(both, count, over, impact.zeta2 > 0);
     if (element("sentence").textContent !== said) element("sentence").textContent = said;
-  }
-
-  function show_closer() {
-    const { time, touching } = stage.first_bounce(now);
-    const here = Math.min(time, impact.contact.end);
-    const row = models.at(impact.contact, here);
-    diagram.show(impact, row, touching && time <= impact.contact.end);
-    charts.move_cursor(element("forces"), scales.forces, here, [row.normal, row.friction]);
-    charts.move_cursor(element("velocity"), scales.velocity, here, [row.velocity]);
-    show_energies(2, "now", row.energy);
-  }
-
-  function show_energies(column, moment, shares) {
-    const kinds = Object.entries(shares);
-    element(`bar-${moment}`).innerHTML = kinds
-      .map(([kind, share]) => `<i class="${kind}" style="width:${100 * share}%"></i>`)
-      .join("");
-    for (const [kind, share] of kinds) {
-      element(`energy-${kind}`).cells[column].textContent =
-        share < 5e-4 ? "\u2013" : (100 * share).toFixed(1);
-    }
-  }
-
-  // What each model says of the first bounce, with a word beside the numbers where they disagree.
-  function show_models() {
-    const { mu, x, beta, e } = impact;
-    const before = 1 + (mu * x) ** 2 / beta;
-    const outcomes = models.outcomes(list, impact);
-    const row = ({ style, name, velocity, peak_friction, dissipation, direction, slides }) => {
-      const way = ["back", "stops", "on"][direction + 1] + (slides ? ", slips throughout" : "");
-      const lost = (200 * mu * mu * dissipation) / before;
-      return `<tr><th scope="row"><span class="ink ${style}">${name}</span></th>` +
-        `<td>${charts.number(velocity, Math.abs(velocity) < 1000 ? 3 : 0)}</td><td>${way}</td>` +
-        `<td>${charts.number(peak_friction, 3)}</td><td>${lost.toFixed(1)}</td></tr>`;
-    };
-    element("outcomes").tBodies[0].innerHTML = outcomes.map(row).join("");
-    const { agrees, text } = words.agreement(outcomes);
-    element("agreement").textContent = text;
-    element("agreement").classList.toggle("disagree", !agrees);
-    // The sentence is that of the chosen model, whether its curve is shown or not.
-    const [own] = models.outcomes([impact.contact.style], impact);
-    const other = ({ direction, slides, mute }) =>
-      !mute && (direction !== own.direction || slides !== own.slides);
-    element("doubt").textContent =
-      outcomes.some(other) ? "Other models say otherwise: see the table." : "";
-    element("uncovered").hidden = continuum.covers(e) || state.beside === "rigid";
-    const springs_alone = list.every((style) => models.SPRINGS.includes(style));
-    element("own-force").hidden = state.view !== "forces" || springs_alone;
   }
 
   function show_controls() {
@@ -219,18 +140,12 @@ const page = (() => {
       if (typed !== document.activeElement) show_typed(name);
     }
     element("stiffness_ratio").textContent = charts.number(stiffness_ratio(state.poisson_ratio), 3);
-    element("counted").textContent = charts.number(100 / state.mass_ratio, 0);
     element("given").textContent =
       `Ball of radius ${charts.number(state.radius)}\u00A0mm, drawn larger; gravity ` +
       (impact.before.gravity ? `${charts.number(impact.before.gravity)}\u00A0m/s\u00B2.` : "is left out.");
-    root.dataset.beside = state.beside;
     element("no-ball").hidden = state.mass_ratio >= 2;
-    for (const name of CHOICES) element(name).value = state[name];
-    element("loss").disabled = state.restitution === 1;
+    element("view").value = state.view;
     element("time").max = stage.duration();
-    for (const name of models.TOGGLES) {
-      element(`model-${name}`).checked = state.models.includes(name);
-    }
     for (const part of document.querySelectorAll("[data-view]")) {
       part.hidden = !part.dataset.view.split(" ").includes(state.view);
     }
@@ -247,17 +162,11 @@ const page = (() => {
   }
 
   function show_names() {
-    const name = models.NAMES[continuum_style()];
-    const springs = ["contact without a spring", impact.zeta2 ? "contact with a spring" : "its spring is taken away"];
-    const short_names = state.beside === "rigid" ? ["no spring", impact.zeta2 ? "spring" : "no spring"]
-      : ["lumped", "continuum"];
-    const lanes = state.beside === "rigid" ? springs : [models.NAMES.lumped, name];
-    ["upper", "lower"].forEach((lane, i) => {
-      const short = innerWidth < 600 ? short_names[i] : lanes[i];
-      element(`stage-${lane}-name`).textContent = `\u25CF ${short}:`;
-      element(`patch-${lane}-name`).textContent = `${short}: `;
-    });
-    element("of-model").textContent = models.NAMES[impact.contact.style];
+    const with_spring = innerWidth < 600 ? "spring" : "contact with a spring";
+    const without = innerWidth < 600 ? "no spring" : "contact without a spring";
+    const taken = innerWidth < 600 ? "no spring" : "its spring is taken away";
+    stage.part("upper-name").textContent = `\u25CF ${without}:`;
+    stage.part("lower-name").textContent = `\u25CF ${impact.zeta2 ? with_spring : taken}:`;
   }
 
   const show_typed = (name) =>
@@ -265,57 +174,21 @@ const page = (() => {
 
   function refresh() {
     const throw_ = thrown();
-    // Sizes are read before anything changes, which would cost time. Type is larger in a wide frame,
-    // and a chart is drawn larger with it.
-    const wide = width_of("incidence");
-    styles = styles_of_lanes();
+    // Read before anything changes, which would cost time. Type is larger in a wide frame, and the
+    // chart is drawn larger with it.
+    const svg = element("incidence");
+    const wide = (Math.max(svg.clientWidth, 160) * 16) / parseFloat(getComputedStyle(root).fontSize);
     impact = solved(throw_);
-    // The continuum is looked at where it flies.
-    const shown = state.models.filter((name) => name !== "continuum" || state.beside === "continuum");
-    list = models.chosen(impact, shown);
-    stage.prepare(throw_, flights, styles);
+    stage.prepare(throw_, flights);
     told = undefined;
     now = Math.min(now, stage.duration());
     if (!embedded) {
-      const end = frozen ?? charts.widest(impact);
-      scales.incidence = charts.incidence(
-        element("incidence"), wide, impact, state.view, list, end);
-      show_models();
+      chart = charts.incidence(svg, wide, impact, state.view, frozen ?? charts.widest(impact));
     }
     show_controls();
     show_names();
-    look_closer();
     show_time();
   }
-
-  const width_of = (name) =>
-    (Math.max(element(name).clientWidth, 160) * 16) / parseFloat(getComputedStyle(root).fontSize);
-
-  // The closer look is drawn at once where it can be seen, and else when a change is over.
-  const closer = document.querySelector(".closer");
-  let seen = false;
-  let later;
-  function look_closer() {
-    clearTimeout(later);
-    scales.forces = undefined;
-    if (embedded) return;
-    if (seen) draw_closer();
-    else later = setTimeout(draw_closer, SETTLED);
-  }
-
-  function draw_closer() {
-    const [forces, velocity] = ["forces", "velocity"].map(width_of);
-    scales.forces = charts.forces(element("forces"), forces, impact);
-    scales.velocity = charts.velocity(element("velocity"), velocity, impact);
-    show_energies(1, "before", impact.contact.rows[0].energy);
-    show_energies(3, "after", impact.contact.rows.at(-1).energy);
-    show_closer();
-  }
-
-  new IntersectionObserver(([entry]) => {
-    seen = entry.isIntersecting;
-    if (seen && !scales.forces) look_closer();
-  }, { rootMargin: "100px" }).observe(closer);
 
   // ---- what the reader does -----------------------------------------------------------------
 
@@ -391,18 +264,10 @@ const page = (() => {
     slider.addEventListener("input", () => take({ [name]: Number(slider.value) }));
     on_typing(name);
   }
-  for (const name of models.TOGGLES) {
-    element(`model-${name}`).addEventListener("change", () => {
-      state.models = models.TOGGLES.filter((one) => element(`model-${one}`).checked);
-      changed();
-    });
-  }
-  for (const name of CHOICES) {
-    element(name).addEventListener("change", (event) => {
-      state[name] = event.target.value;
-      changed();
-    });
-  }
+  element("view").addEventListener("change", (event) => {
+    state.view = event.target.value;
+    changed();
+  });
   element("preset").addEventListener("change", (event) => {
     if (event.target.value) go(event.target.value);
   });
@@ -448,12 +313,6 @@ const page = (() => {
 
   element("play").addEventListener("click", () => play(!playing));
   element("do-start").addEventListener("click", () => go_to(0));
-  element("do-micro").addEventListener("click", () => {
-    const time = stage.micro_slip();
-    if (!flights.lower) tell(element("uncovered").textContent);
-    else if (time === null) tell("In the first bounce of this throw the contact sticks nowhere.");
-    else go_to(time);
-  });
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
   document.addEventListener("keydown", (event) => {
     if (embedded && !event.target.matches("input, select, .grasp")) {
@@ -513,65 +372,47 @@ const page = (() => {
     event.preventDefault();
   });
 
-  // Pressing or dragging in a chart: the time there, or the incidence. A mouse acts at once. A
-  // finger acts by a tap, or once it has moved more along the chart than across it: to scroll the
-  // page, starting on a chart, changes nothing.
-  function on_drag(svg, action, begin = () => {}, end = () => {}) {
-    let start = null; // where it was pressed
-    let dragging = false;
-    const drag = (event) => {
-      if (!dragging) {
-        dragging = true;
-        svg.setPointerCapture(event.pointerId);
-        begin();
-      }
-      action(event);
-    };
-    const away = (event) => [event.clientX - start.x, event.clientY - start.y].map(Math.abs);
-    const finish = () => {
-      if (dragging) end();
-      start = null;
-      dragging = false;
-    };
-    svg.addEventListener("pointerdown", (event) => {
-      if (!event.isPrimary || event.button !== 0) return;
-      start = { x: event.clientX, y: event.clientY };
-      if (event.pointerType !== "touch") drag(event);
-    });
-    svg.addEventListener("pointermove", (event) => {
-      if (!start || !event.isPrimary) return;
-      const [along, across] = away(event);
-      if (dragging || (along > INTENT && along > across)) drag(event);
-      else if (across > INTENT) finish();
-    });
-    svg.addEventListener("pointerup", (event) => {
-      if (start && !dragging) drag(event);
-      finish();
-    });
-    svg.addEventListener("pointercancel", finish);
-  }
-  function go_to_contact(time) {
-    const { segment } = stage.first_bounce(now);
-    // Just inside the contact, so that it still touches.
-    const share = Math.min(Math.max(time / segment.end, 1e-4), 1 - 1e-4);
-    go_to(segment.start + share * segment.length);
-  }
-  on_drag(element("forces"), (event) => go_to_contact(scales.forces.at(event)));
-  on_drag(element("velocity"), (event) => go_to_contact(scales.velocity.at(event)));
-  // The chart says the incidence of the contact point, to which spin adds.
-  function to_incidence(event) {
-    const wanted = Math.tan((scales.incidence.angle(event) * Math.PI) / 180);
+  // Pressing or dragging in the chart asks for the incidence there. A mouse acts at once. A finger acts
+  // by a tap, or once it has moved more along the chart than across it: to scroll the page, starting on
+  // the chart, changes nothing.
+  const curves = element("incidence");
+  let start = null; // where it was pressed
+  let dragging = false;
+  function drag(event) {
+    if (!dragging) {
+      dragging = true;
+      curves.setPointerCapture(event.pointerId);
+      frozen = charts.widest(impact);
+    }
+    // The chart says the incidence of the contact point, to which spin adds.
+    const wanted = Math.tan((chart.angle(event) * Math.PI) / 180);
     const spins = (impact.before.spin * state.radius) / 1000 / -impact.before.up;
     take({ angle: (Math.atan(wanted + spins) * 180) / Math.PI });
   }
-  on_drag(
-    element("incidence"), to_incidence,
-    () => (frozen = charts.widest(impact)),
-    () => {
+  function finish() {
+    if (dragging) {
       frozen = undefined;
       changed();
-    },
-  );
+    }
+    start = null;
+    dragging = false;
+  }
+  curves.addEventListener("pointerdown", (event) => {
+    if (!event.isPrimary || event.button !== 0) return;
+    start = { x: event.clientX, y: event.clientY };
+    if (event.pointerType !== "touch") drag(event);
+  });
+  curves.addEventListener("pointermove", (event) => {
+    if (!start || !event.isPrimary) return;
+    const [along, across] = [event.clientX - start.x, event.clientY - start.y].map(Math.abs);
+    if (dragging || (along > INTENT && along > across)) drag(event);
+    else if (across > INTENT) finish();
+  });
+  curves.addEventListener("pointerup", (event) => {
+    if (start && !dragging) drag(event);
+    finish();
+  });
+  curves.addEventListener("pointercancel", finish);
 
   // ---- how it looks, and what a reader takes along --------------------------------------------
 
@@ -631,7 +472,7 @@ const page = (() => {
       tell(copied ? `The link is copied.${where}` : `Copy this link: ${link}`);
     },
     csv() {
-      const text = files.csv(impact, state, models.outcomes(list, impact), scales.incidence);
+      const text = files.csv(impact, state, chart);
       files.save("impact.csv", new Blob([text], { type: "text/csv" }));
       tell("impact.csv has the curves shown and the numbers of this impact.");
     },
@@ -641,14 +482,14 @@ const page = (() => {
       tell("stage.png has the picture of the stage.");
     },
     async curve() {
-      const legend = scales.incidence.curves.map(({ style }) =>
-        [element("incidence").querySelector(`polyline.${style}`), models.NAMES[style]]);
+      const legend = chart.curves.map(({ style }) =>
+        [curves.querySelector(`polyline.${style}`), models.NAMES[style]]);
       const shown = element("view").selectedOptions[0].textContent;
       const of = (place) => files.plain(document.querySelector(`${place} [data-view]:not([hidden])`));
       const [unit, along] = [of(".above"), of(".under")];
       const above = [`${shown}: ${unit}`];
       const below = [`against ${along}`, ...legend, about_impact()];
-      files.save("curve.png", await files.picture(element("incidence"), above, below));
+      files.save("curve.png", await files.picture(curves, above, below));
       tell("curve.png has the curve.");
     },
   };
@@ -669,7 +510,6 @@ const page = (() => {
     now = 0;
     playing = false;
     refresh();
-    if (asked === "micro") now = stage.micro_slip() ?? 0;
     play(false);
     show_time();
   }

@@ -1,8 +1,8 @@
 "use strict";
 
-// The stage: two balls thrown alike, the upper one by one model and the lower one by another, each
-// above its own floor and below the name of its model; and what the contact of each looks like. The
-// time of the show, in seconds, stretches each contact.
+// The stage: two balls thrown alike, the upper one with a rigid contact and the lower one with a spring
+// along the surface, each above its own floor and below the name of its contact. The time of the show,
+// in seconds, stretches each contact.
 const stage = (() => {
   const SLOW_FLIGHT = 3; // times slower than in nature, and under a table, where flights are short
   const SLOW_BELOW = 10;
@@ -29,15 +29,13 @@ const stage = (() => {
   // ---- the show in time ---------------------------------------------------------------------
 
   // Segments of the show. Both balls bounce at the same instants, as both have the same restitution.
-  function segments(flights) {
+  function segments(parts) {
     const list = [];
     let start = 0;
-    const [first, second] = Object.values(flights);
-    first.forEach((one, i) => {
-      const end = Math.max(one.contact?.end ?? 0, second?.[i]?.contact?.end ?? 0);
+    parts.forEach((one, index) => {
       const pace = list.some(({ kind }) => kind === "bounce") ? LATER_CONTACT : FIRST_CONTACT;
-      const length = one.kind === "flight" ? slower() * one.time : pace * end;
-      list.push({ kind: one.kind, index: i, start, length, end });
+      const length = one.kind === "flight" ? slower() * one.time : pace * one.contact.end;
+      list.push({ kind: one.kind, index, start, length });
       start += length;
     });
     return list;
@@ -63,25 +61,16 @@ const stage = (() => {
     return { segment, share };
   }
 
-  // The first bounce: its segment, and t/t_c in it: before it 0, after it the end.
-  function first_bounce(now) {
-    const segment = shown.segments.find(({ kind }) => kind === "bounce");
-    const share = Math.min(Math.max((now - segment.start) / segment.length, 0), 1);
-    return { time: share * segment.end, touching: share > 0 && share < 1, segment };
-  }
-
-  // Ball, contact and wall of one lane now.
+  // Ball, bounce and instant of its contact in one lane now.
   function lane_at(parts, { segment, share }) {
     const one = parts[segment.index];
     if (one.kind === "flight") return { ball: flight.later(one.ball, share * one.time) };
-    const time = Math.min(share * segment.end, one.contact.end);
-    const row = models.at(one.contact, time);
+    const row = models.at(one.contact, share * one.contact.end);
     const gone = (row.velocity - one.x) / (one.contact.state.velocity - one.x || 1);
     const mix = (name) => one.ball[name] + gone * (one.after[name] - one.ball[name]);
-    const touches = share < 1 && share * segment.end < one.contact.end;
     return {
-      ball: { ...one.ball, along: mix("along"), spin: mix("spin") },
-      bounce: one, row: touches ? row : null, slip: one.sign * one.unit * row.velocity,
+      ball: { ...one.ball, along: mix("along"), spin: mix("spin") }, bounce: one,
+      row: share < 1 ? row : null,
     };
   }
 
@@ -140,21 +129,15 @@ const stage = (() => {
     });
   }
 
-  // `styles` are the models of the lanes; one that has no answer has no flights.
-  function prepare(given, flights, styles) {
+  function prepare(given, flights) {
     const gap = given.table ? given.table - 2 * given.radius : 0;
-    shown = { given, flights, styles };
-    const list = (shown.segments = segments(flights));
+    shown = { given, flights };
+    const list = (shown.segments = segments(flights.upper));
     const speeds = Object.values(flights).flat().map(({ x, unit }) => (x ?? 0) * unit || 0);
     shown.fastest = Math.max(...speeds) || 1;
     shown.traces = Object.fromEntries(
       Object.entries(flights).map(([lane, parts]) => [lane, traced(parts, list)]));
     put_frame(held ?? framed(flights, gap));
-    for (const lane of LANES) {
-      part(lane).setAttribute("class", `lane ${styles[lane]} ${flights[lane] ? "" : "absent"}`);
-      part(`${lane}-words`).setAttribute("class", `lane-name ${styles[lane]}`);
-      element(`patch-${lane}-figure`).setAttribute("class", `patch ${styles[lane]}`);
-    }
   }
 
   // Draws what stands still in a frame.
@@ -194,12 +177,7 @@ const stage = (() => {
   };
 
   function show_lane(lane, now, at_moment) {
-    const parts = shown.flights[lane];
-    if (!parts) {
-      part(`${lane}-numbers`).textContent = "no answer for this restitution";
-      return;
-    }
-    const { ball, bounce, row, slip } = lane_at(parts, at_moment);
+    const { ball, bounce, row } = lane_at(shown.flights[lane], at_moment);
     const [x, y] = place_of(ball, lane);
     const { radius } = frame;
     const degrees = (ball.turn * 180) / Math.PI;
@@ -213,19 +191,13 @@ const stage = (() => {
     part(`${lane}-path`).setAttribute("d",
       `M${behind.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join("L")}`);
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
-    const arrow = bounce && !(row && with_springs())
-      ? arrows.straight(x, foot, x + slip * speed_scale(), foot) : "";
-    part(`${lane}-slip`).setAttribute("d", arrow);
-    part(`${lane}-numbers`).textContent = row && with_springs() && narrow()
+    part(`${lane}-numbers`).textContent = row && narrow()
       ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
-    part(`${lane}-lens`).innerHTML = row && with_springs() ? lens_of(lane, bounce, row, [x, foot]) : "";
-    if (!with_springs()) patch_of(lane, bounce, row);
+    part(`${lane}-lens`).innerHTML = row ? lens_of(lane, bounce, row, [x, foot]) : "";
   }
 
   const springy = (lane) => lane === "lower" && shown.given.groups.zeta2 > 0;
   const narrow = () => frame.width < 480; // then words stand above the ball
-  // Both lanes have one contact point, with a spring or without: the scene of the lower lane's spring.
-  const with_springs = () => shown.styles.lower === "lumped";
 
   // The magnifying glass beside the ball, where there is more room.
   function lens_of(lane, bounce, now, tip) {
@@ -236,17 +208,6 @@ const stage = (() => {
     const up = bounce.wall === "table" ? -1 : 1;
     return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign,
       up, springy: springy(lane), x, y, size, tip, side, worded: !narrow() });
-  }
-
-  // Pixels for 1 m/s, of arrows.
-  const speed_scale = () => Math.min(18, frame.width / 36);
-
-  function patch_of(lane, bounce, row) {
-    const style = bounce?.contact.style;
-    const { e } = shown.given.groups;
-    const motion = style && lane === "lower" ? continuum.normal(e, style) : null;
-    const zones = patch.show(lane, row, bounce?.sign ?? 1, motion);
-    element(`patch-${lane}-words`).textContent = patch.words(zones);
   }
 
   function show(now) {
@@ -327,24 +288,8 @@ const stage = (() => {
     if (!on) part("band").setAttribute("d", "");
   }
 
-  // The time at which the first bounce of the continuum has a slipping edge that is easy to see.
-  function micro_slip() {
-    const bounce = shown.flights.lower?.find(({ kind }) => kind === "bounce");
-    if (!bounce || with_springs()) return null;
-    const ring = ({ slips, touching }) => {
-      const inside = [...slips].slice(0, touching);
-      const held_inside = inside.filter((slip) => slip === 0).length;
-      return held_inside && held_inside < inside.length ? held_inside / slips.length : 0;
-    };
-    const best = bounce.contact.rows.reduce((a, b) =>
-      ring(b) * (b.radius - ring(b)) > ring(a) * (a.radius - ring(a)) ? b : a);
-    if (!ring(best)) return null;
-    const { segment } = first_bounce(0);
-    return segment.start + (best.time / segment.end) * segment.length;
-  }
-
   // Bounces that are over, and whether the show is.
   const progress = (now) => ({ bounces: shown.bounces, over: now >= shown.end - 1e-3 });
 
-  return { progress, prepare, show, duration, first_bounce, aim_at, spin_at, hold, micro_slip, part };
+  return { progress, prepare, show, duration, aim_at, spin_at, hold, part };
 })();

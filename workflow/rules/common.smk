@@ -23,13 +23,11 @@ os.environ.update(PYTHONPATH=sys.path[0])
 # Snakemake puts this path into the command of a script without quotes (its issue 2645): the blanks of a
 # folder `OneDrive - NTNU` would break it.
 sys.executable = shlex.quote(sys.executable)
-from stronge1994 import reference_data, settings
+from stronge1994 import paper, reference_data, settings
 from stronge1994.names import is_of_paper
-from stronge1994.ledger import entries
 from stronge1994.settings import config as configuration
 from stronge1994.settings import figures
 
-LEDGER = "data/stronge1994/ledger.yaml"
 ACCEPTED = "data/accepted/verdicts.csv"
 try:
     # In place of `configfile:`: workflow/config.yaml over each figure.yaml, --configfile and --config over
@@ -39,20 +37,20 @@ try:
         workflow.config_settings.config_args or (),
     )
     SOURCES = reference_data.load_all("data")
-    OF_LEDGER = entries.load(LEDGER, reference_data.load_yaml("workflow/schemas/ledger.schema.yaml"))
-    ENTRIES = list(OF_LEDGER)
+    LEDGER = paper.entries(SOURCES["stronge1994"]["facts"])
+    ENTRIES = list(LEDGER)
     configuration.check_config(config, SOURCES, ENTRIES)
     FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
     JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}
-except reference_data.SourceError as error:
+except (reference_data.SourceError, paper.EntryError) as error:
     raise WorkflowError(str(error))
 
 PAPER = [figure for figure in FIGURES if is_of_paper(figure)]
 SHOWS = {figure: figures.stated()[figure]["shows"] for figure in PAPER}
 TIMED, SLIDES = figures.with_trait("timed"), figures.with_trait("slide")  # as figure.yaml says
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
-# What can be asked for alone, and what it judges: Figs 2 to 9, each figure, each scene.
-TARGETS = {"paper": PAPER} | {name: [name] for name in JUDGED}
+# What can be asked for alone, and what it judges: Figs 2 to 9, the ledger, each figure, each scene.
+TARGETS = {"paper": PAPER, "ledger": []} | {name: [name] for name in JUDGED}
 
 
 wildcard_constraints:
@@ -78,9 +76,12 @@ COMMON += files(
 SOLVER = [*files("src/planarimpact/**/*"), "environment.txt"]  # another version of a package solves again
 SOLVING = [*SOLVER, *COMMON, *files("src/stronge1994/printed/*", "src/stronge1994/figures/shared/curves/*")]
 DRAWING = [*COMMON, *files("src/stronge1994/figures/shared/drawing/*")]
-JUDGING = [*COMMON, *files("src/stronge1994/judging/*", "src/stronge1994/ledger/*")]
+JUDGING = [
+    *COMMON,
+    *files("src/stronge1994/judging/*", "src/stronge1994/paper/*", "src/stronge1994/printed/*"),
+]
 WRITING = [*DRAWING, *JUDGING, *files("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
-WRITING += files("src/stronge1994/explorer/*", f"{figures.folder_of('inelastic')}/trials.py")
+WRITING += files("src/stronge1994/explorer/*")
 
 
 def of_folder(without):

@@ -7,32 +7,26 @@ SERIES = {
 }
 # Pictures of prints under our curves, saved beside what was read there.
 OVERLAYS = {name: series["overlay"] for name, series in SERIES.items() if series.get("overlay")}
-# Series of which the note states numbers. It needs them, fig5, inelastic and rubber_sphere.
-STATED = {"pairs": SOURCES["cornell1999"]["series"]["pairs"]}
 
 
 rule report:
-    """The run as pages: the report, its sources and settings, the note, the ledger of the paper."""
+    """The run as pages: the report, its sources and settings, the ledger of the paper."""
     input:
-        code=["workflow/scripts/write_report.py", *WRITING],
+        code=["workflow/scripts/write_report.py", *SOLVER, *WRITING],
         ledger="results/ledger.csv",
         accepted=ACCEPTED,
-        in_nature="results/in_nature.csv",
         verdicts="results/verdicts.csv",
         residuals=expand("results/residuals/{judged}.csv", judged=FIGURES),
         curves=expand("results/curves/{figure}.csv", figure=FIGURES),
         pictures=expand("figures/{figure}.svg", figure=FIGURES),
-        stated=[series["path"] for series in STATED.values()],
         overlays=list(OVERLAYS.values()),
         parts=files("workflow/report/*.*"),
     output:
         report="figures/report.html",
         sources="figures/sources.html",
-        note="figures/note.html",
         ledger="figures/ledger.html",
         tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
         which_model=report("results/which_model.csv", category="Tables", caption="../report/which_model.rst"),
-        numbers="results/key_numbers.csv",
     log:
         "results/logs/report.log",
     conda:
@@ -45,10 +39,7 @@ rule report:
             "captions": {name: stated["caption"] for name, stated in figures.stated().items()},
             "slides": SLIDES,
             "sources": SOURCES,
-            "stated": STATED,
             "overlays": OVERLAYS,
-            "symbols": reference_data.load_yaml(LEDGER)["symbols"],
-            "impacts": {name: entry["explorer"] for name, entry in OF_LEDGER.items() if "explorer" in entry},
             "rows": rows_of(JUDGED),
             "entries": ENTRIES,
         },
@@ -57,11 +48,10 @@ rule report:
 
 
 rule lecture:
-    """Run one lecture, compare the numbers that its texts state, and write its pages."""
+    """Run one lecture, with the checks of what its texts state, and write its pages."""
     input:
         code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
-        numbers="workflow/notebooks/{notebook}.yaml",
         tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/curves/trade.csv"),
         style="workflow/notebooks/lecture.mplstyle",
         page="workflow/report/notebook.html",
@@ -137,28 +127,3 @@ PAGES = [
 
 # All that `all` makes, but for a folder, whose date would count.
 EVERYTHING = [*made(JUDGED), *(path for path in PAGES if path != rules.report.output.tables)]
-
-
-rule site:
-    """All pages for students and readers, in one folder and as a zip file: five minutes of processor time."""
-    input:
-        code=["workflow/scripts/write_site.py", *SOLVER, *WRITING],
-        made=[
-            *(
-                path for path in [*PAGES, *made(JUDGED)] if "answers_" not in path
-            ),  # which are for the teacher
-            *expand("results/verdicts/{judged}.csv", judged=JUDGED),
-            "results/ledger.csv",
-        ],
-        texts=["LICENSE", "CITATION.cff"],
-        parts=["workflow/report/index.html", *EVERY_PAGE],
-        style=expand("workflow/report/interface/{part}", part=["frame.html.jinja2", "custom.css"]),
-    output:
-        folder=directory("results/site"),
-        archive="results/site.zip",
-    log:
-        "results/logs/site.log",
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/write_site.py"

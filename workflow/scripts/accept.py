@@ -4,8 +4,7 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import accepted, tables, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import accepted, ledger_table, tables, verdict_table
 
 verdicts = verdict_table.gather(snakemake.input.verdicts)
-accepted.write(verdicts, tables.read_rows(snakemake.input.ledger, outcome.COLUMNS))
+accepted.write(verdicts, tables.read_rows(snakemake.input.ledger, ledger_table.COLUMNS))

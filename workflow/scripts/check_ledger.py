@@ -4,12 +4,10 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import reference_data, tables
-from stronge1994.ledger import checking, entries, outcome
+from stronge1994 import ledger_table, paper, reference_data, tables
+from stronge1994.paper import checking
 
-every = entries.load(snakemake.input.entries, reference_data.load_yaml(snakemake.input.schema))
-measured = checking.measure(every)
-rows = checking.check(every, measured)
-tables.write_rows(snakemake.output.table, rows, outcome.COLUMNS)
-tables.write_rows(snakemake.output.measures, checking.table_of(measured), outcome.OF_NATURE)
-print(outcome.summary(rows))
+facts = reference_data.load_yaml(snakemake.input.facts)["facts"]
+rows = checking.check(paper.entries(facts).values())
+tables.write_rows(snakemake.output[0], rows, ledger_table.COLUMNS)
+print(ledger_table.summary(rows))

@@ -7,12 +7,11 @@ from stronge1994 import logs
 
 logs.to(snakemake.log[0])
 
-from stronge1994 import accepted, gate, tables, verdict_table
-from stronge1994.ledger import outcome
+from stronge1994 import accepted, gate, ledger_table, tables, verdict_table
 
 given, asked = snakemake.input, snakemake.params
 verdicts = verdict_table.gather(given.verdicts)
-ledger = tables.read_rows(given.ledger, outcome.COLUMNS) if asked.entries else []
+ledger = tables.read_rows(given.ledger, ledger_table.COLUMNS) if asked.entries else []
 known = accepted.read(given.accepted)
 faults = gate.faults(verdicts, ledger, asked.rows, asked.entries, known)
 told = gate.summary(verdicts, ledger, faults, asked.shows)

@@ -8,4 +8,4 @@ from stronge1994.pages import lectures
 
 given = snakemake.input
 templates = {"page": given.page, "slides": given.slides}
-lectures.run(given.notebook, given.numbers, templates, snakemake.output)
+lectures.run(given.notebook, templates, snakemake.output)

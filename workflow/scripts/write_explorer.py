@@ -13,4 +13,4 @@ from stronge1994.pages import templates
 text = explorer.page(snakemake.params.settings, snakemake.input.sources, answers(explorer.LIMITS))
 Path(snakemake.output.page).write_text(text, encoding="utf-8")
 start = templates.environment().get_template("index.html")
-Path(snakemake.output.start).write_text(start.render(interface=""), encoding="utf-8")
+Path(snakemake.output.start).write_text(start.render(), encoding="utf-8")

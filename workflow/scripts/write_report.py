@@ -1,4 +1,4 @@
-"""Write the run as pages: the report, its sources and settings, the note, the ledger."""
+"""Write the run as pages: the report, its sources and settings, the ledger."""
 
 from stronge1994 import logs
 

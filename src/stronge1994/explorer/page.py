@@ -1,4 +1,4 @@
-"""Write the impact explorer: one page that solves both models and needs no other file."""
+"""Write the impact explorer: one page that solves by itself and needs no other file."""
 
 import json
 import math
@@ -9,7 +9,7 @@ from urllib.parse import urlencode
 
 from markupsafe import Markup, escape
 
-from planarimpact import bodies, collision, continuum
+from planarimpact import bodies, collision
 from stronge1994.pages import templates
 from stronge1994.reference_data import strict_yaml
 
@@ -31,9 +31,6 @@ LIMITS = {
 }
 # The controls that a figure of the paper sets; the others are as the page opens.
 OF_FIGURES = ["angle", "friction", "restitution", "poisson_ratio", "mass_ratio"]
-# Largest error of the continuum of the page, in mu v2(0) and in the largest normal force.
-CONTINUUM_ERROR = 0.01
-CURVE_ERROR = 0.03  # of its curves over all incidences, which take fewer steps
 BODIES = {
     "solid sphere": bodies.solid_sphere(radius=1.0, density=1.0),
     "thin shell": bodies.thin_shell(radius=1.0, mass=1.0),
@@ -98,7 +95,6 @@ def _ball(
             "poisson_ratio": round(float(_poisson_ratio(float(pair.stiffness_ratio))), 4),
             "mass_ratio": f"{float(bodies.mass_ratio(body)):g}",
             "radius": f"{1000 * float(body.radius):.3g}",
-            "loss": str(pair.loss),
             **state,
         }
         source, caveat = given.source, f"{caveat} {given.caveat}"
@@ -116,8 +112,5 @@ def page(settings: Mapping[str, Any], sources: Sequence[str], answers: Sequence[
         bodies={name: round(float(bodies.mass_ratio(body)), 12) for name, body in BODIES.items()},
         materials=balls(str(texts["materials.yaml"])),
         sources=texts,
-        error=CONTINUUM_ERROR,
-        curve_error=CURVE_ERROR,
-        least_restitution=continuum.LEAST_RESTITUTION,
         answers=Markup(json.dumps(answers)),
     )

@@ -2,14 +2,16 @@
 
 nbconvert makes the pages. Cells that have the tag `answer` stand on the sheet alone, for the
 teacher, and those with `student` in the notebook alone. What stands on a slide is what JupyterLab
-calls the slide type of a cell. Numbers that the texts state are compared with what the cells give.
+calls the slide type of a cell. Cells with the tag `check` stand nowhere: they compare the numbers
+that a text states with what the cells give.
 """
 
+import ast
 import os
 import re
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -31,16 +33,12 @@ CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
 EXPORTERS = {"page": HTMLExporter, "answers": HTMLExporter, "slides": SlidesExporter}
 # A paragraph that is only a link to the stage of the explorer, or only a picture that is a file.
-# `?stage=micro` opens the stage at the instant of micro-slip.
-STAGE = re.compile(
-    r"^\[(?P<words>[^]]+)\]\((?P<page>explorer\.html)(?P<stage>\?stage(?:=micro)?)(?P<state>#\S+)\)$",
-    re.M,
-)
+STAGE = re.compile(r"^\[(?P<words>[^]]+)\]\(explorer\.html\?stage(?P<state>#\S+)\)$", re.M)
 FRAME = """<figure class="play">
-<iframe src="{page}{stage}{state}" title="{title}" loading="lazy"></iframe>
+<iframe src="explorer.html?stage{state}" title="{title}" loading="lazy"></iframe>
 <figcaption>
 
-{words}. [Open in the explorer]({page}{state})
+{words}. [Open in the explorer](explorer.html{state})
 
 </figcaption>
 </figure>"""
@@ -68,23 +66,25 @@ class ThisPython(AsyncKernelManager):
         return KernelSpec(argv=[sys.executable, *arguments], language="python")
 
 
-def run(notebook: str, table: str, templates: Mapping[str, str], made: Mapping[str, str]) -> None:
-    """Run `notebook` from its first cell to its last, compare it with its `table`, and write all.
+def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) -> None:
+    """Run `notebook` from its first cell to its last, its checks among them, and write all.
 
     `made["page"]` and `made["answers"]` become pages, made with the Jinja template
     `templates["page"]`, `made["slides"]` one with `templates["slides"]`, and `made["student"]` the
     notebook for students. A `NotebookError` says in one line which cell failed, in which line and
-    why; or which text states another number; or that a cell took too long, or ended the kernel.
+    why; or which text states what its cells do not give, or is not as its check quotes it; or that
+    a cell took too long, or ended the kernel.
     """
     book, folder = nbformat.read(notebook, as_version=4), Path(notebook).parent
+    if fault := stated_numbers.fault(book.cells):
+        raise NotebookError(f"{Path(notebook).name}, {fault}")
     texts = {made["student"]: nbformat.writes(student.notebook(book, folder)) + "\n"}
-    cells = stated_numbers.with_checks(stated_numbers.read(table, book.cells))
-    _execute(book, cells, notebook)
+    _execute(book, notebook)
     for cell in book.cells:
         if cell.cell_type == "markdown":
             cell.source = on_a_page(cell.source, Path(templates["page"]).parent)
     for kind, exporter in EXPORTERS.items():
-        others = {"student"} if kind == "answers" else {"student", "answer"}
+        others = {"student", "check"} | ({"answer"} if kind != "answers" else set())
         rest = Config({"TagRemovePreprocessor": {"enabled": True, "remove_cell_tags": others}})
         one = exporter(template_file=str(templates.get(kind, templates["page"])), config=rest)
         one.exclude_anchor_links = one.exclude_output_prompt = True
@@ -122,13 +122,12 @@ def on_a_page(source: str, folder: Path) -> str:
     return source.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
 
 
-def _execute(book: Any, cells: Sequence[Any], notebook: str) -> None:
-    """Run `cells`, those of `book` and others between; `book` then holds the outputs of its own."""
-    whole = nbformat.NotebookNode(book, cells=cells)
+def _execute(book: Any, notebook: str) -> None:
+    """Run all cells of `book`, which then holds their outputs."""
     with tempfile.TemporaryDirectory() as scratch:
         place = {"transport": "ipc", "connection_file": f"{scratch}/kernel.json"}
         client = NotebookClient(
-            whole,
+            book,
             kernel_manager_class=ThisPython,
             config=Config({"ThisPython": place}),
             timeout=CELL_TIMEOUT,
@@ -155,16 +154,24 @@ def _environment(scratch: str) -> dict[str, str]:
 
 
 def _failure(book: Any, error: Any) -> str:
-    """Number of the cell that failed, its failing line, and the error; or the wrong number."""
-    if error.ename == stated_numbers.WrongNumberError.__name__:
-        return error.evalue
+    """The cell that failed, its failing line, and the error; of a check, what the text states."""
     number, cell = next(
         (n, cell)
         for n, cell in enumerate(book.cells, 1)
         if any(output.output_type == "error" for output in cell.get("outputs", ()))
     )
+    if stated_numbers.is_check(cell) and error.ename == AssertionError.__name__:
+        return f"{book.cells[number - 2].id}: {_wrong(cell.source, error.evalue)}"
     traceback = strip_ansi(error.traceback)
     lines = re.findall(r"^-+> *\d+ +(.*)$", traceback, flags=re.M)
     line = lines[0].strip() if lines else cell.source.splitlines()[0]
     message = " ".join([f"{error.ename}:", *error.evalue.split()]).removesuffix(":")
     return f"cell {number}: {line}: {message}"
+
+
+def _wrong(check: str, message: str) -> str:
+    """What the text above a check states wrongly, by the `message` of `says` or of an assertion."""
+    for words, node in stated_numbers.quotations(check):
+        if words == message and isinstance(node, ast.Assert):
+            return f"the text says {words!r}, its cells give no truth of {ast.unparse(node.test)}"
+    return message

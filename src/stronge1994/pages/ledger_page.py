@@ -7,26 +7,17 @@ from typing import Any
 
 from markupsafe import Markup
 
-from stronge1994 import words
+from stronge1994 import ledger_table, words
 from stronge1994.formulas import mathematical
-from stronge1994.ledger import finding, outcome
+from stronge1994.ledger_table import GRADES
 from stronge1994.pages import templates
+from stronge1994.paper.entry import LEDGER, VERDICTS
+from stronge1994.paper.words import SYMBOLS
 from stronge1994.tables import Row
 
-# Classes of the style, by verdict, by grade, and by verdict in nature.
-STYLE = {
-    "confirmed": "confirmed",
-    "confirmed within rounding": "rounding",
-    "wrong": "wrong",
-    "not testable": "not",
-}
-GRADE_STYLE = dict(zip(outcome.GRADES, ("grave", "misprint", "judgement"), strict=True))
-NATURE_STYLE = {
-    finding.STANDS: "nature stands",
-    finding.FAILS: "nature contradicted",
-    finding.DEPENDS: "nature depends",
-    finding.OPEN: "nature unknown",
-}
+# Classes of the style, by verdict and by grade.
+STYLE = dict(zip(VERDICTS, ("confirmed", "rounding", "wrong", "not"), strict=True))
+GRADE_STYLE = dict(zip(GRADES, ("grave", "misprint", "judgement"), strict=True))
 # Entries and comparisons have a hyphen in their names.
 NAME = re.compile(r"(?:(?<=comparison )|(?<![\w./-]))[a-z_\d]+-[\w.-]*\w")
 # Where a place in the paper names pages and equations.
@@ -48,7 +39,6 @@ FOLDED = {
     "reading": "reading",
     "why": "why not testable",
     "found": "test",
-    "nature": "in two continua",
 }
 CONDITIONAL = "right only under a condition"
 
@@ -85,7 +75,7 @@ def linked_maths(entries: Collection[str], page: str = "") -> Callable[[str], Ma
 
 def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
     """Wrong rows by the text of their cause, the gravest ones first."""
-    order = list(outcome.GRADES)
+    order = list(GRADES)
     wrong = [row for row in rows if row.get("cause")]
     causes: dict[str, list[Row]] = {}
     for row in sorted(wrong, key=lambda row: order.index(row["grade"])):
@@ -170,39 +160,36 @@ def entry_of(row: Row, parts: Mapping[str, str], known: Collection[str]) -> dict
     }
 
 
-def page(rows: Sequence[Row], symbols: str, impacts: Mapping[str, Any]) -> str:
-    """The page of the ledger's rows.
-
-    `symbols` explains their formulas; `impacts` are those that the explorer shows, by entry.
-    """
+def page(rows: Sequence[Row]) -> str:
+    """The page of the ledger's rows."""
     environment = templates.environment()
     environment.filters["maths"] = linked_maths({row["entry"] for row in rows})
-    style = STYLE | GRADE_STYLE | NATURE_STYLE
+    style = STYLE | GRADE_STYLE
     found = Counter(row["verdict"] for row in rows)
-    parts = by_letter(symbols)
+    parts = by_letter(SYMBOLS)
     known = common(rows, parts)
     entries = [entry_of(row, parts, known) for row in rows]
     causes = by_cause(rows)
     return environment.get_template("ledger.html").render(
         entries=entries,
-        symbols=symbols,
+        symbols=SYMBOLS,
         common=known,
         choices={
-            "kind": ("Verdict", [*STYLE, CONDITIONAL, *outcome.GRADES]),
+            "kind": ("Verdict", [*STYLE, CONDITIONAL, *GRADES]),
             "equation": ("Equation", sorted({n for entry in entries for n in entry["equations"]})),
             "page": ("Page", sorted({n for entry in entries for n in entry["pages"]})),
         },
         counts={verdict: found[verdict] for verdict in STYLE if found[verdict]},
-        conditional=outcome.conditional(rows),
-        graded=outcome.sentence_of_grades(rows),
-        lapsed=outcome.failing(rows),
+        conditional=ledger_table.conditional(rows),
+        graded=ledger_table.sentence_of_grades(rows),
+        lapsed=ledger_table.failing(rows),
         causes=causes,
         symbols_of_causes=explained(
             " ".join(f"{row['because']} {row['correction']}" for row in sum(causes.values(), [])),
             parts,
             known,
         ),
-        gravest=next(iter(outcome.GRADES)),
+        gravest=next(iter(GRADES)),
         style=style,
-        explorer=impacts,
+        explorer={name: made.explorer for name, made in LEDGER.items() if made.explorer},
     )

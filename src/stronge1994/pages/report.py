@@ -6,6 +6,7 @@ Nothing is solved here.
 import io
 import re
 import shutil
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -13,21 +14,23 @@ from typing import Any, TypeAlias
 import pandas as pd
 from markupsafe import Markup
 
-from stronge1994 import accepted, figure_table, gate, tables, verdict_table, versions, words
+from stronge1994 import (
+    accepted,
+    figure_table,
+    gate,
+    ledger_table,
+    tables,
+    verdict_table,
+    versions,
+    words,
+)
+from stronge1994.figure_table import FigureRow, Item
 from stronge1994.figures.shared.drawing import house_style
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, plain
 from stronge1994.judging.verdicts import DOUBT, LARGEST_ERROR
-from stronge1994.ledger import outcome
 from stronge1994.names import home, is_of_paper
-from stronge1994.pages import (
-    key_numbers,
-    ledger_page,
-    note,
-    sources_page,
-    templates,
-    which_model,
-)
+from stronge1994.pages import ledger_page, sources_page, templates, which_model
 from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
 
@@ -44,6 +47,14 @@ MEANING = {
 # What stands first among the comparisons of a figure.
 FIRST = (Verdict.FAILS, Verdict.NOT_COMPARED, Verdict.DIFFERS)
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
+# Models whose restitution is tried below e = 1, in words.
+BELOW_ONE = {
+    "lumped.hysteretic": "as in the paper",
+    "lumped.unloading-stiffness": r"with $e^2 \zeta^2$ in place of $\zeta^2$",
+    "lumped.viscous": "two Kelvin–Voigt elements",
+    "continuum.viscous": "viscous continuum",
+    "continuum.plastic": "continuum that yields",
+}
 # Tables with a section of the report; their captions stand in files of the same names.
 SECTIONS = ("which_model", "trade")
 
@@ -64,10 +75,14 @@ def page(values: TemplateValues) -> str:
     table = values["table"]
     return environment.get_template("report.html").render(
         values,
-        lapsed=outcome.failing(values["ledger"]),
-        grave=[row for row in values["ledger"] if row["grade"] == next(iter(outcome.GRADES))],
+        lapsed=ledger_table.failing(values["ledger"]),
+        grave=[row for row in values["ledger"] if row["grade"] == next(iter(ledger_table.GRADES))],
         unmade=gate.unmade(verdicts),
         in_paper=[row for row in table if is_of_paper(row.figure)],
+        largest={row.figure: largest(row, verdicts) for row in table},
+        rows={row["comparison"]: row for row in verdicts},
+        counts=Counter(row["verdict"] for row in values["ledger"]),
+        below_one=BELOW_ONE,
         beyond=[row for row in table if not is_of_paper(row.figure) and row.others],
         of_solver=figure_table.of_solver(verdicts),
         of_printed=figure_table.of_printed(verdicts),
@@ -76,6 +91,24 @@ def page(values: TemplateValues) -> str:
         scenes=parts([row for row in verdicts if row["figure"] not in values["figures"]]),
         solver=Group.SOLVER,
     )
+
+
+def largest(figure: FigureRow, verdicts: Sequence[Row]) -> Item | None:
+    """What the paper says of a figure and is most wrong, else what others say of it.
+
+    Of the items of the worst verdict it is the one with the largest distance.
+    """
+    distances = {row["comparison"]: float(row["max"] or 0) for row in verdicts}
+
+    def rank(item: Item) -> tuple[int, float]:
+        verdict = list(Verdict).index(Verdict(item.verdict))
+        return -verdict, max(distances[name] for name in item.rows)
+
+    compared = (
+        [item for item in items if item.verdict != Verdict.NOT_COMPARED]
+        for items in (figure.paper, figure.others)
+    )
+    return next((max(items, key=rank) for items in compared if items), None)
 
 
 def numbers(text: str) -> Markup:
@@ -103,6 +136,7 @@ def figure(
     return {
         "title": words.figure(name),
         "picture": templates.embedded(svg),
+        "size": re.findall(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg.decode("utf-8"))[0],
         "caption": caption,
         "alt": plain(re.split(r"\.\s+(?=[A-Z])", caption)[0].rstrip(".")),
         "comparisons": parts(rows),
@@ -110,7 +144,7 @@ def figure(
         "has_slide": has_slide,
         "strips": templates.embedded(_svg(strips)) if strips else None,
         "prints": {
-            series: templates.embedded(Path(overlays[series]).read_bytes(), "png")
+            series: templates.embedded_png(Path(overlays[series]).read_bytes())
             for series in dict.fromkeys(prints)
         },
     }
@@ -171,25 +205,19 @@ def write(
     captions: Mapping[str, str],
     slides: Collection[str],
     sources: Mapping[str, Any],
-    stated: Mapping[str, Mapping[str, Any]],
     overlays: Mapping[str, str],
-    symbols: str,
-    impacts: Mapping[str, Any],
     rows: Collection[str],
     entries: Collection[str],
 ) -> None:
     """Write all pages and the tables that belong to them; files and settings are those of the rule.
 
     `shows` and `captions` are those of the figures, `slides` names those that have one. `sources`
-    holds data/*/source.yaml, `stated` the series of which the note states numbers, and `overlays`
-    pictures of prints by series. `symbols` and `impacts` are those of the ledger; `rows` and
-    `entries` are as in `gate.faults`.
+    holds data/*/source.yaml, and `overlays` pictures of prints by series. `rows` and `entries` are
+    as in `gate.faults`.
     """
     verdicts = verdict_table.gather([given.verdicts])
-    ledger, measures = map(tables.read_rows, (given.ledger, given.in_nature))
+    ledger = tables.read_rows(given.ledger)
     curves = {Path(path).stem: path for path in given.curves}
-    numbers = key_numbers.of_run(verdicts, ledger, measures, curves, stated)
-    key_numbers.write(made.numbers, numbers)
     trade = tables.read(curves["trade"])
     answers = which_model.answers(trade)
     answers.to_csv(made.which_model, index=False, lineterminator="\n")
@@ -216,7 +244,6 @@ def write(
             name: (templates.SHARED / f"{name}.rst").read_text("utf-8").strip() for name in SECTIONS
         },
         "cases": which_model.cases(answers, trade),
-        "n": numbers,
         "significance": config["significance"],
         "doubt": DOUBT * config["significance"],
         "run": run,
@@ -225,8 +252,7 @@ def write(
     pages = {
         made.report: page(values),
         made.sources: sources_page.page(sources, config, run),
-        made.note: note.page(numbers, table, pictures),
-        made.ledger: ledger_page.page(ledger, symbols, impacts),
+        made.ledger: ledger_page.page(ledger),
     }
     for path, text in pages.items():
         Path(path).write_text(text, encoding="utf-8")

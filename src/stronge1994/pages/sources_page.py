@@ -38,6 +38,16 @@ def by_kind(sources: Mapping[str, Any]) -> dict[str, Any]:
     return {name: sources[name] for name in sorted(sources, key=rank)}
 
 
+def used(source: str, comparisons: Mapping[str, Any]) -> list[str]:
+    """Figures and scenes with curves that are compared with a source.
+
+    >>> used("maw1976", {"fig5-maw": {"figure": "fig5", "reference": "maw1976/rebound"}})
+    ['fig5']
+    """
+    every = (c for c in comparisons.values() if c.get("reference", "").split("/")[0] == source)
+    return list(dict.fromkeys(c["figure"] for c in every))
+
+
 def page(sources: Mapping[str, Any], config: Mapping[str, Any], run: Mapping[str, Any]) -> str:
     """The page of sources and settings, from data/*/source.yaml and the config of the run."""
     comparisons = config["comparisons"].items()
@@ -48,10 +58,10 @@ def page(sources: Mapping[str, Any], config: Mapping[str, Any], run: Mapping[str
     }
     environment = templates.environment()
     environment.filters["in_yaml"] = in_yaml
+    environment.filters["counts"] = lambda source: Counter(kinds(source))
     return environment.get_template("sources.html").render(
         sources=by_kind(sources),
-        choices={"kind": ("Kind", KINDS)},
-        counts=Counter(kind for source in sources.values() for kind in kinds(source)),
+        used={name: used(name, config["comparisons"]) for name in sources},
         shared={key: config[key] for key in (*SHARED, "significance")},
         settings={figure: in_yaml(part) for figure, part in settings.items()},
         run=run,

@@ -1,7 +1,7 @@
 """The notebook of a lecture for a student, who may change each number and needs nothing beside it.
 
-It has no answers and no outputs. Its first cell of code installs what is missing; style, tables and
-pictures stand inside. Links lead to the pages in its own folder.
+It has no answers, no checks and no outputs. Its first cell of code installs what is missing; style,
+tables and pictures stand inside. Links lead to the pages in its own folder.
 """
 
 import base64
@@ -20,7 +20,7 @@ import pandas as pd
 STYLE = re.compile(r'"(\w+\.mplstyle)"')
 TABLE = re.compile(r'^(\w+) = pd\.read_csv\("([^"]+)"\)$', re.M)
 PICTURE = re.compile(r"!\[([^]]*)\]\((\.\./[^)]+\.svg)\)")
-PAGE = re.compile(r"\.\./\.\./figures/([\w.]+)(?:\?stage(?:=\w+)?)?")
+PAGE = re.compile(r"\.\./\.\./figures/([\w.]+)(?:\?stage)?")
 MODULE = re.compile(r"^(?:from|import) (\w+)", re.M)
 BEGIN = """\
 **This notebook is yours.** Run it from top to bottom: menu *Run*, *Run All Cells*. Then change any
@@ -53,7 +53,8 @@ def notebook(book: Any, folder: Path) -> Any:
             "language_info": {"name": "python"},
         }
     )
-    made.cells = [c for c in made.cells if "answer" not in c.metadata.get("tags", ())]
+    others = {"answer", "check"}
+    made.cells = [cell for cell in made.cells if not others & {*cell.metadata.get("tags", ())}]
     for cell in made.cells:
         # How code and headings are folded stays, slides and tags are ours.
         kept = {"jupyter", "jp-MarkdownHeadingCollapsed"} & set(cell.metadata)

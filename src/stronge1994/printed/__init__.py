@@ -1,11 +1,9 @@
 """The formulas of Stronge (1994) as printed, errors included; for checking only.
 
-One function an equation, named by its number; formulas without a number bear their page. They
-follow the sections of the paper: `dynamics` (Eqs 1 to 9, Table 1), `slip` (Eqs 10 to 27),
-`peak_force` (Eqs 28 to 35), `dissipation` (Eqs 36 to 41). `impact` puts them together as the
-paper does, from incidence to rebound. What is wrong in them, and what is right instead, stands in
-data/stronge1994/ledger.yaml; `stronge1994.ledger` measures it. To solve anything, use
-`planarimpact.lumped`.
+One function an equation, named by its number; formulas without a number bear their page. Here are
+those that figures draw: `impact` puts them together as the paper does, from incidence to rebound.
+The others stand in `stronge1994.paper`, each beside the entry that says what is wrong in it, and
+what is right instead. To solve anything, use `planarimpact.lumped`.
 
 Symbols, in any consistent units:
 

@@ -12,7 +12,7 @@ from planarimpact import lumped
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from planarimpact.common.results import EventKind
-from stronge1994.printed import dissipation, dynamics, peak_force, slip
+from stronge1994.printed import equations
 
 
 def rebound(
@@ -45,7 +45,7 @@ def rebound(
     """
     x, *groups = checks.impact(np.ravel(incidence), mass_ratio, stiffness_ratio, restitution)
     beta, zeta2, e = (float(group[0]) for group in groups)
-    limit = slip.slip_throughout_limit(beta, e)
+    limit = equations.slip_throughout_limit(beta, e)
     solved = [_solved(abs(value), beta, zeta2, e, limit) for value in x.tolist()]
     velocity, peak, lost = np.array(solved).reshape(-1, 3).T
     return np.copysign(1.0, x) * velocity, peak, lost
@@ -56,9 +56,9 @@ def _solved(
 ) -> tuple[Numbers, Numbers, Numbers]:
     """Velocity, peak friction and dissipation of one impact."""
     if x >= limit:
-        final = slip.eq_27_rebound(x, beta, e)
-        peak = peak_force.eq_33_friction(0.0, 1.0)
-        return final, peak, dissipation.eq_41_friction(x, beta, 1.0, e) / 2
+        final = equations.eq_27_rebound(x, beta, e)
+        peak = equations.eq_33_friction(0.0, 1.0)
+        return final, peak, equations.eq_41_friction(x, beta, 1.0, e) / 2
     instants = _instants(x, beta, zeta2, e) if beta > zeta2 else None
     if instants is None:
         return (np.nan,) * 3
@@ -84,11 +84,11 @@ def _stick_first(
 ) -> tuple[Numbers, Numbers, Numbers]:
     """Eqs 12, 15, 30 and 39."""
     omega = np.sqrt(beta / zeta2)
-    g1 = slip.impulse_ratio(t1, 1.0, e) if e else 0.0
-    final = slip.eq_15_rebound(slip.eq_12_velocity_at_slip(x, omega, t1), g1, beta)
+    g1 = equations.impulse_ratio(t1, 1.0, e) if e else 0.0
+    final = equations.eq_15_rebound(equations.eq_12_velocity_at_slip(x, omega, t1), g1, beta)
     # For mu = 1 and slope -> 0 of both sides of Eq. 30, the factor of the slope remains.
     peak = x * np.sqrt(1 / (zeta2 * beta))
-    return final, peak, dissipation.eq_39_friction(x, np.cos(omega * t1), g1, beta, 1.0) / 2
+    return final, peak, equations.eq_39_friction(x, np.cos(omega * t1), g1, beta, 1.0) / 2
 
 
 def _slip_first(
@@ -98,17 +98,17 @@ def _slip_first(
     omega = np.sqrt(beta / zeta2)
     late = t2 > np.pi / 2
     w2 = (
-        slip.eq_19b_velocity(t2, x, 1.0, 1.0, beta, 1.0, e)
+        equations.eq_19b_velocity(t2, x, 1.0, 1.0, beta, 1.0, e)
         if late
-        else slip.eq_19a_velocity(t2, x, 1.0, 1.0, beta, 1.0)
+        else equations.eq_19a_velocity(t2, x, 1.0, 1.0, beta, 1.0)
     )
-    normal = dynamics.table_1_force(t2, -1.0, 1.0, 1.0, e)
-    w3 = slip.eq_22a_velocity(t3 - t2, -zeta2 * normal, w2, omega)
-    share = dynamics.table_1_impulse(t3, -1.0, 1.0, 1.0, e)
-    final = slip.eq_25_rebound(w3, share, beta, e)
-    stretch, velocity = peak_force.eq_32_start(t2, x, beta, zeta2)
+    normal = equations.table_1_force(t2, -1.0, 1.0, 1.0, e)
+    w3 = equations.eq_7b_velocity(t3 - t2, -zeta2 * normal, w2, omega)
+    share = equations.table_1_impulse(t3, -1.0, 1.0, 1.0, e)
+    final = equations.eq_25_rebound(w3, share, beta, e)
+    stretch, velocity = equations.eq_32_start(t2, x, beta, zeta2)
     peak = _largest(stretch, velocity / omega, omega * (t3 - t2)) / zeta2
-    return final, peak, dissipation.eq_40_friction(x, w2, w3, final, beta, 1.0) / 2
+    return final, peak, equations.eq_40_friction(x, w2, w3, final, beta, 1.0) / 2
 
 
 def _largest(cosine: Numbers, sine: Numbers, end: float) -> float:

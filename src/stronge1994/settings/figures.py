@@ -28,14 +28,10 @@ KEYS = {own.name for own in fields(Comparison)}  # of a comparison
 
 @dataclass(frozen=True, config=CONFIG)
 class Slide(Declared):
-    """A slide shows one panel of the figure, without its letter, below a title.
-
-    `only` has the entries of the legend that it has, each without its numbers; without it all.
-    """
+    """A slide shows one panel of the figure, without its letter, below a title."""
 
     panel: Annotated[str, Field(pattern="^[a-z]$")]
     title: Annotated[str, Field(min_length=10)]
-    only: Annotated[list[str], Field(min_length=1)] = field(default_factory=list)
 
 
 @dataclass(frozen=True, config=CONFIG)

@@ -12,7 +12,7 @@ from stronge1994.figures.shared.curves.printed_variants import printed_variants
 from stronge1994.figures.shared.curves.sampling import NO_NODES, Nodes, vertices
 from stronge1994.names import CONTINUA, PAPER
 from stronge1994.printed import impact
-from stronge1994.printed.slip import slip_throughout_limit as printed_limit
+from stronge1994.printed.equations import slip_throughout_limit as printed_limit
 from stronge1994.tables import Table
 
 

@@ -8,9 +8,10 @@ from stronge1994.figures.shared.drawing.house_style import Dashes, Points, Setti
 from stronge1994.tables import Table
 
 TIME, CONTACT, STICK = "time [t_c]", "contact_radius [a_max]", "stick_radius [a_max]"
-# In all panels a pattern of line stands for a model, and a colour for an incidence.
+# A colour stands for an incidence. In panels of forces a pattern of line stands for a model; in the
+# first panel, which has the continuum alone, the incidences have patterns too.
 PATTERNS: dict[str, Dashes] = {"continuum": (0, (6, 2)), "lumped": "-"}
-RIM: Style = {"color": house_style.BLACK, "linewidth": 0.6}
+RIM: Style = {"color": house_style.GREY, "linewidth": 0.8}
 FORCES: dict[str, Style] = {
     "normal_force [F2max]": {"color": house_style.GREY, "linewidth": 0.8},
     "friction_force [mu F2max]": {"linewidth": 1.4},
@@ -28,8 +29,8 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     own = next(iter(contacts.values()))
     rim = house_style.line(panels[0], own, TIME, CONTACT, label="contact", **RIM)
     stick = []
-    for x, colour in colours.items():
-        style = {"color": colour, "linestyle": PATTERNS["continuum"]}
+    for (x, colour), dashes in zip(colours.items(), house_style.DASHES, strict=False):
+        style = {"color": colour, "linestyle": dashes}
         style["label"] = f"stick, {house_style.INCIDENCE} $= {x:g}$"
         stick.append(house_style.line(panels[0], contacts[x], TIME, STICK, **style))
     panels[0].set(ylim=(0, 1.05), ylabel=r"radius over $a_\mathrm{max}$")
@@ -46,13 +47,14 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
         axes.axvline(1, **house_style.GUIDE)
     panels[-1].set_xlim(0, 2)
     house_style.letter(list(panels))
+    house_style.above_each_other(list(panels))
     names = rf"$F_2/{house_style.F2MAX}$", rf"$F_1/\mu {house_style.F2MAX}$"
     black = {"color": house_style.BLACK}
     keys = [
         *(house_style.key(n, **black | s) for n, s in zip(names, FORCES.values(), strict=True)),
         *(house_style.key(model, linestyle=d, **black) for model, d in PATTERNS.items()),
     ]
-    house_style.legend_below(figure, [rim, *stick], keys, titles=["(a)", "forces and models"])
+    house_style.legend_below(figure, [rim, *stick], keys, titles=["(a)", "forces, models"])
     frequency = (settings["mass_ratio"] / settings["stiffness_ratio"]) ** 0.5
     panels[0].set_title(rf"$e = 1$,  $\omega/\Omega = {frequency:.2f}$")
     return figure

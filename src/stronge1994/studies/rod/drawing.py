@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc
 
+from planarimpact.common.arrays import Array, Booleans
 from planarimpact.common.results import Regime
 from stronge1994 import tables
 from stronge1994.figures.shared.drawing import histories, house_style
@@ -42,6 +43,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
         _draw_over_tilt(column, own)
         column[0].set_title(rf"$v_1(0)/v_2(0) = {ratio:g}$")
     house_style.letter(panels[1:, 0])
+    house_style.above_each_other(panels[1:, 0])
     for axes in panels[:, 1:].ravel():
         axes.label_outer()
     panels[0, 0].set_yticks([0.5, 1.5, 2.5], ["regime", "jams", "rigid: jams"])
@@ -51,6 +53,7 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     sketch, forces = over_time.subgridspec(1, 2, width_ratios=[1, 5]).subplots()
     _draw_rod(sketch, settings["contact"])
     lines = _draw_contact(forces, curves, settings["friction"])
+    house_style.letter([forces], first=3)
     groups = [_shown(panels[0]), _shown(panels[-1]), lines]
     house_style.legend_below(figure, *groups, titles=["", "(a) to (c)", "(d)"])
     return figure
@@ -89,12 +92,22 @@ def _draw_ribbons(axes: Axes, compliant: Table, rigid: Table) -> None:
     axes.spines[:].set_visible(False)
     for regime in np.unique(compliant["regime"]):
         style = {"facecolor": SHADES.get(regime, "0.6"), "edgecolor": "0.4", "linewidth": 0.6}
-        inside = compliant["regime"] == regime
-        label = Regime[regime].words
-        axes.fill_between(compliant[TILT], 0.1, 0.9, where=inside, label=label, **style)
+        spans = _spans(compliant[TILT], compliant["regime"] == regime)
+        axes.broken_barh(spans, (0.1, 0.8), label=Regime[regime].words, **style)
     for row, curve in enumerate((compliant, rigid), start=1):
-        jams = curve["jams [1]"] == 1
-        axes.fill_between(curve[TILT], row + 0.1, row + 0.9, where=jams, **JAM)
+        spans = _spans(curve[TILT], curve["jams [1]"] == 1)
+        axes.broken_barh(spans, (row + 0.1, 0.8), **JAM)
+
+
+def _spans(tilt: Array, inside: Booleans) -> list[tuple[float, float]]:
+    """Start and width of each range of tilt inside.
+
+    >>> _spans(np.array([0.0, 1.0, 2.0, 3.0]), np.array([True, True, False, True]))
+    [(0.0, 1.0), (3.0, 0.0)]
+    """
+    ends = np.flatnonzero(np.diff(np.asarray(inside, int), prepend=0, append=0)).reshape(-1, 2)
+    own = np.asarray(tilt)
+    return [(float(own[i]), float(own[j - 1] - own[i])) for i, j in ends]
 
 
 def _draw_contact(axes: Axes, curves: Table, friction: float) -> Entries:
@@ -107,7 +120,7 @@ def _draw_contact(axes: Axes, curves: Table, friction: float) -> Entries:
         house_style.line(axes, smooth, TIME, NORMAL, **SMOOTH),
     ]
     axes.axhline(0, **house_style.GUIDE)
-    axes.set(xlim=(0, None), ylabel=r"(d) force$/m_2\Omega v_2(0)$")
+    axes.set(xlim=(0, None), ylabel=r"force$/m_2\Omega v_2(0)$")
     house_style.name_spans(axes, list(_phases(contact)))
     return lines
 

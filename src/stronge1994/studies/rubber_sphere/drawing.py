@@ -34,7 +34,8 @@ def draw(curves: Table, settings: Settings, points: Points) -> Figure:
     diamond = POINT | {"marker": "D", "label": stated.legend}
     diamonds = house_style.measured(axes, stated, **diamond)
     axes.set_xlim(0, settings["incidence"][1])
-    axes.set_title(rf"$e_t$; lines: models at $e = {settings['restitution']:g}$")
+    axes.set_ylabel("tangential restitution $e_t$")
+    axes.set_title(rf"rubber sphere on granite; models at $e = {settings['restitution']:g}$")
     house_style.legend_below(figure, models, [circles, halves, diamonds])
     return figure
 

@@ -1,9 +1,9 @@
-"""Beyond the paper: error of every model against its time, and time against the size of batch."""
+"""Beyond the paper: error of every model and its time, and time against the size of batch."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -16,152 +16,141 @@ from stronge1994.tables import Table
 ERROR, SPLINE = "rms_velocity [mu v2(0)]", "spline of continuum"
 SPREAD, SPREAD_STICK = "input_spread [mu v2(0)]", "input_spread_stick [mu v2(0)]"
 OTHERS, BATCH_OF_OTHERS = "other_codes/impacts", 100
-ERROR_LABEL, TIME_LABEL = r"error of $v_1(t_f)/\mu v_2(0)$, rms", "time of an impact, s"
-NAMES = {"rigid": "rigid", "laws.smith": "Smith", "laws.brach": "Brach"}
 # Range of errors that uncertain inputs hide.
 HIDDEN: Style = {"color": "0.9", "linewidth": 0, "zorder": 0.5, "label": r"uncertain $e$ and $\mu$"}
-
-
-def _mark(label: str, marker: str, colour: str, filled: bool = True) -> Style:
-    return {
-        "label": label,
-        "marker": marker,
-        "markersize": 5,
-        "color": colour,
-        "markerfacecolor": colour if filled else "none",
-        "markeredgewidth": 0.9,
-        "linestyle": "none",
-    }
-
-
-# A colour stands for what takes the energy: black for the normal element of the paper, blue for
-# viscosity, orange for plastic flow, green for an elastic contact. Grey formulas have none, and
-# other codes are purple.
-BLACK, ELASTIC = house_style.BLACK, house_style.GREEN
-VISCOUS, PLASTIC, OTHER = house_style.BLUE, house_style.ORANGE, house_style.PURPLE
-FORMULA = _mark("formula", "D", house_style.GREY)
-MARKS = {
-    "rigid": FORMULA,
-    "laws.smith": FORMULA,
-    "laws.brach": FORMULA,
-    "lumped": _mark("lumped, as in the paper", "o", BLACK),
-    "lumped.hysteretic": _mark("lumped, as in the paper", "o", BLACK),
-    "lumped.viscous": _mark("lumped, viscous", "P", VISCOUS),
-    "lumped.unloading-stiffness": _mark(r"lumped, $e^2\zeta^2$", "P", PLASTIC, filled=False),
-    "spheres": _mark("table", "X", ELASTIC),
-    "spheres.viscous": _mark("table, viscous", "X", VISCOUS),
-    "spheres.plastic": _mark("table, plastic", "X", PLASTIC, filled=False),
-    SPLINE: _mark("spline, one pair of bodies", "*", ELASTIC),
-    "timestep.linear": _mark("linear spring, in steps", "s", BLACK, filled=False),
-    "timestep.mindlin": _mark("Mindlin, in steps", "^", BLACK),
-    "timestep.mindlin_rescaled": _mark("Mindlin, rescaled", "v", BLACK, filled=False),
-    "continuum": _mark("continuum", "o", ELASTIC, filled=False),
-    "continuum.viscous": _mark("continuum, viscous", "o", VISCOUS),
-    "continuum.plastic": _mark("continuum, plastic", "o", PLASTIC, filled=False),
-    "LAMMPS": _mark("LAMMPS", "d", OTHER, filled=False),
-    "pooltool": _mark("pooltool", "p", OTHER),
+# Each model has a row, in this order; the names of both springs of the paper have the same.
+ROWS = {
+    "rigid": "rigid",
+    "laws.smith": "law of Smith",
+    "laws.brach": "law of Brach",
+    "lumped": "lumped, as in the paper",
+    "lumped.hysteretic": "lumped, as in the paper",
+    "lumped.unloading-stiffness": r"lumped, $e^2\zeta^2$",
+    "lumped.viscous": "lumped, Kelvin–Voigt",
+    "timestep.linear": "linear spring, in steps",
+    "timestep.mindlin": "Mindlin, in steps",
+    "timestep.mindlin_rescaled": "Mindlin, rescaled",
+    "LAMMPS": "LAMMPS",
+    "pooltool": "pooltool",
+    "continuum": "continuum",
+    "continuum.viscous": "continuum, viscous",
+    "continuum.plastic": "continuum, plastic",
+    "spheres": "table",
+    "spheres.viscous": "table, viscous",
+    "spheres.plastic": "table, plastic",
+    SPLINE: "spline, one pair",
 }
+# A row has a mark for each case: the elastic continuum, the viscous one, the plastic one.
+MARKS: dict[str, Style] = {
+    "": {"color": house_style.BLACK, "marker": "o"},
+    "viscous": {"color": house_style.BLUE, "marker": "s"},
+    "plastic": {"color": house_style.ORANGE, "marker": "^"},
+}
+# How far apart the marks of a row are, over its height.
+CASE_SPACING = 0.24
 # These models have a line against the size of batch. The lines of the others would lie beside them.
 GROWTH = ("laws.brach", "lumped", "timestep.mindlin", "continuum", SPLINE)
 
 
 def draw(curves: Table, settings: Settings, points: Points) -> Figure:
-    """Draw error against time for the first restitution and the last, and time against batch.
+    """Draw (a) the error and (b) the time of each model, and (c) time against batch.
 
-    A restitution below 1 has a panel for each loss.
+    The cases are the first restitution and the last, one below 1 with each loss.
     """
     batches = sorted(settings["batches"])
     batch = batches[len(batches) // 2]
     time = f"time_{batch} [s]"
     ends = dict.fromkeys((settings["restitution"][0], settings["restitution"][-1]))
     cases = {
-        (e, loss): same
+        (e, loss): _with_others(same, points if batch == BATCH_OF_OTHERS else {}, e, loss)
         for e in ends
         for loss, same in curves[tables.where(curves, e=e)].groupby("loss", sort=False)
     }
-    figure = house_style.new(10.2)
-    grid = figure.add_gridspec(3, 2, height_ratios=[4, 4, 2.6])
-    cells = grid[0, :], grid[1, 0], grid[1, 1]
-    for letter, cell, ((e, loss), same) in zip("abc", cells, cases.items(), strict=False):
-        axes = figure.add_subplot(cell, xscale="log", yscale="log")
-        timed = same.reindex(columns=[*same, time]) if time not in same else same
-        timed = timed.dropna(subset=[time])
-        _draw_errors(axes, timed, time, numbers=letter == "a")
-        if OTHERS in points and batch == BATCH_OF_OTHERS:
-            others = points[OTHERS].columns
-            others = others[tables.where(others, loss=loss, **{"restitution [1]": e})]
-            _draw_others(axes, timed, time, others)
-        axes.margins(0.15, 0.08)
-        axes.set(title=f"({letter}) $e = {e:g}$, {loss or 'elastic'} continuum", xlabel=TIME_LABEL)
-        axes.set_ylabel(ERROR_LABEL, visible=letter != "c")
-    growth = figure.add_subplot(grid[2, :])
+    models = {*(model for rows in cases.values() for model in rows["model"])}
+    names = list(dict.fromkeys(name_of(model) for model in [*ROWS, *sorted(models)]))
+    names = [name for name in names if name in set(map(name_of, models))]
+    figure = house_style.new(1.9 + 0.2 * len(names) + 2.5)
+    grid = figure.add_gridspec(2, 1, height_ratios=[0.2 * len(names) + 0.4, 2])
+    error, times = grid[0].subgridspec(1, 2).subplots(sharey=True)
+    keys: house_style.Entries = []
+    for place, ((e, loss), rows) in enumerate(cases.items()):
+        mark: Style = MARKS[loss] | {"markersize": 4, "markerfacecolor": "white", "linewidth": 0.8}
+        for row, name in enumerate(names):
+            own = rows[[name_of(model) == name for model in rows["model"]]]
+            height = row + CASE_SPACING * (place - (len(cases) - 1) / 2)
+            for axes, column in ((error, ERROR), (times, time)):
+                if column in own:
+                    _draw_range(axes, own[column].dropna(), height, mark)
+        # An artist of the panel, so that the slide has its entry, too.
+        keys += error.plot([], [], label=f"$e = {e:g}$, {loss or 'elastic'}", **mark)
+    spreads = [rows[[SPREAD_STICK, SPREAD]].iloc[0] for rows in cases.values() if len(rows)]
+    if spreads:
+        error.axvspan(
+            min(own.min() for own in spreads), max(own.max() for own in spreads), **HIDDEN
+        )
+    error.set(ylim=(len(names) - 0.5, -0.5), title="(a) error, rms", xlabel=house_style.REBOUND)
+    error.set_yticks(range(len(names)), names, fontsize=house_style.NOTE)
+    times.set(title=f"(b) time, {batch} together", xlabel="time of an impact, s")
+    for axes in (error, times):
+        axes.set_xscale("log")
+        axes.tick_params(axis="y", length=0)
+        for row in range(1, len(names)):
+            axes.axhline(row - 0.5, **house_style.GUIDE)
+    growth = figure.add_subplot(grid[1])
     _draw_growth(growth, next(iter(cases.values())), batches)
     first = settings["restitution"][0]
-    growth.set(title=f"(d) $e = {first:g}$", xlabel="impacts together", ylabel=TIME_LABEL)
-    figure.suptitle(f"(a) to (c): {batch} impacts together", fontsize=house_style.NOTE)
-    styles = {str(mark["label"]): mark for mark in map(mark_of, [*MARKS, *curves["model"]])}
-    keys = [house_style.key(**style) for style in styles.values()] + [Patch(**HIDDEN)]
-    house_style.legend_below(figure, keys[:9], keys[9:])
+    growth.set(title=f"(c) $e = {first:g}$", xlabel="impacts together", ylabel="time of one, s")
+    half = (len(keys) + 2) // 2
+    keys = [*keys, Patch(**HIDDEN)]
+    house_style.legend_below(figure, keys[:half], keys[half:])
     return figure
 
 
-def mark_of(model: str) -> Style:
-    """The mark of a model; one that has none in `MARKS` has its own name.
+def name_of(model: str) -> str:
+    """The name of the row of a model; one that has none in `ROWS` has its own.
 
-    >>> mark_of("lumped.viscous")["label"], mark_of("own.law")["label"]
-    ('lumped, viscous', 'own.law')
+    >>> name_of("lumped.viscous"), name_of("own.law")
+    ('lumped, Kelvin–Voigt', 'own.law')
     """
-    return MARKS.get(model, _mark(model, "h", house_style.GREY, filled=False))
+    return ROWS.get(model, model)
 
 
-def _draw_errors(axes: Axes, rows: Table, time: str, numbers: bool) -> None:
-    """Draw a point for each model, and which errors are hidden.
+def _with_others(rows: Table, points: Points, e: float, loss: str) -> Table:
+    """Rows of one case with those of other codes.
 
-    With `numbers` the setting of a model stands beside its point, or the name of a formula.
+    Their times are known over that of the table of spheres, in which they are measured.
     """
-    for _, row in rows.iterrows():
-        axes.plot([row[time]], [row[ERROR]], **mark_of(row["model"]))
-        if numbers and (text := _number(row)):
-            # Names stand on the left: formulas are fast, and of nearly one time.
-            left: Style = {"xytext": (-5, 0), "ha": "right", "va": "center"}
-            place: Style = left if text.isalpha() else {"xytext": (4, 3)}
-            place |= {"textcoords": "offset points", "fontsize": house_style.NOTE}
-            axes.annotate(text, (row[time], row[ERROR]), **place)
-    if len(rows):
-        axes.axhspan(*rows[[SPREAD_STICK, SPREAD]].iloc[0], **HIDDEN)
+    table = rows[rows["model"] == ("spheres." + loss if loss else "spheres")]
+    if OTHERS not in points or not len(table):
+        return rows
+    time = f"time_{BATCH_OF_OTHERS} [s]"
+    others = points[OTHERS].columns
+    own = others[tables.where(others, loss=loss, **{"restitution [1]": e})]
+    times = own["times_table [1]"] * table[time].iloc[0]
+    added = own[[ERROR]].assign(model=own["code"], **{time: times})
+    return pd.concat([rows, added], ignore_index=True)
 
 
-def _number(row: Mapping[str, Any]) -> str:
-    """The number of steps or knots, or the tolerance; two laws of Mindlin need it once.
-
-    >>> _number({"model": "continuum", "tolerance": 1e-3})
-    '$10^{-3}$'
-    """
-    settings = {key: row.get(key, np.nan) for key in ("tolerance", "knots", "steps")}
-    known = {key: value for key, value in settings.items() if value > 0}
-    if "tolerance" in known:
-        return f"$10^{{{np.log10(known['tolerance']):.3g}}}$"
-    if known and row["model"] != "timestep.mindlin_rescaled":
-        return f"{next(iter(known.values())):g}"
-    return NAMES.get(row["model"], "")
-
-
-def _draw_others(axes: Axes, rows: Table, time: str, others: Table) -> None:
-    """Draw other codes, whose times are known over that of the table of spheres."""
-    names = "spheres" + ("." + rows["loss"]).where(rows["loss"] != "", "")
-    table = rows[rows["model"] == names]
-    for code, own in others.groupby("code", sort=False) if len(table) else ():
-        times = own["times_table [1]"] * table[time].iloc[0]
-        axes.plot(times, own[ERROR], **MARKS[code])
+def _draw_range(axes: Axes, values: Iterable[float], height: float, mark: Style) -> None:
+    """Draw the least and the largest value of a row, with a line between them."""
+    if ends := sorted({*values}):
+        ends = sorted({ends[0], ends[-1]})
+        axes.plot(ends, [height] * len(ends), label="_", **mark)
 
 
 def _draw_growth(axes: Axes, rows: Table, batches: Sequence[int]) -> None:
     """Draw time against the size of batch, with the finest setting of each model."""
-    for model, dashes in zip(GROWTH, house_style.DASHES, strict=True):
+    columns = [f"time_{batch} [s]" for batch in batches]
+    for model, dashes, colour in zip(GROWTH, house_style.DASHES, house_style.COLOURS, strict=True):
         own = rows[rows["model"] == model]
         finest = own.sort_values(["steps", "tolerance"], ascending=[True, False]).tail(1)
-        columns = [f"time_{batch} [s]" for batch in batches]
         for _, row in finest.reindex(columns=columns).iterrows():
-            style = MARKS[model] | {"linestyle": dashes, "linewidth": 0.9}
             solved = row.notna().to_numpy()
-            axes.loglog(np.array(batches)[solved], row[solved], **style)
+            size, time = np.array(batches)[solved], row[solved].to_numpy(float)
+            style: Style = {"linestyle": dashes, "color": colour, "marker": "o", "markersize": 3}
+            axes.loglog(size, time, label=ROWS[model], **style)
+            # The name stands between the first two sizes.
+            place = np.exp(np.mean(np.log([size[:2], time[:2]]), axis=1))
+            white: Style = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
+            middle: Style = {"ha": "center", "va": "center", "fontsize": house_style.NOTE}
+            axes.text(*place, ROWS[model], color=colour, bbox=white, **middle)

@@ -12,16 +12,21 @@ A figure is a folder with figure.yaml, curves.py and drawing.py. Its drawing.py 
 
 Importing this module sets matplotlib's defaults for all figures. A style that holds only while a
 figure is put together would not reach its ticks, which matplotlib makes when it writes the file.
-What this repository adds to a figure of the paper has its own part of the legend. The colours
-(Okabe & Ito) differ in grey too, and no two curves differ by colour alone. Where one figure shows
-several restitutions, `of_restitution` gives their lines; where it shows one, a pattern is a model.
+The first panels of a figure of the paper have what the print has, and nothing else: the same axes,
+curves and patterns of lines, as far as its text says. What this repository adds stands in panels of
+its own below. The colours (Okabe & Ito) differ in grey too, and no two curves differ by colour
+alone: they differ in pattern, or have their names beside them, see `name_curve`. Where one figure
+shows several restitutions, `of_restitution` gives their lines; where it shows one, a pattern is a
+model.
 """
 
+import io
+import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import IO, Any, TypeAlias
+from typing import Any, BinaryIO, TypeAlias
 
 import matplotlib
 import numpy as np
@@ -37,7 +42,7 @@ from planarimpact.common.arrays import Array, Booleans
 from stronge1994 import names, tables, words
 from stronge1994.tables import Table
 
-File: TypeAlias = str | IO[bytes]
+File: TypeAlias = str | BinaryIO
 Style: TypeAlias = dict[str, Any]  # keywords of matplotlib
 Dashes: TypeAlias = str | tuple[float, tuple[float, ...]]  # a pattern of line
 Settings: TypeAlias = dict[str, Any]
@@ -78,11 +83,13 @@ class Awaited:
 # Inches. The letters stay readable when a column of a journal shrinks a figure to 3.4 inches.
 WIDTH = 5.0
 # Size in points of notes, and of names above the axes.
-NOTE = 8.5
+NOTE = 9.5
 
 BLACK, BLUE, VERMILLION, GREEN, PURPLE = "#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 SKY, ORANGE = "#56B4E9", "#E69F00"
 GREY, PALE = "0.5", "0.85"
+# For printed equations; darker than PURPLE, so that it is seen on both grounds of a slide.
+ROSE = "#B0508A"
 
 # No pattern is dotted: a dotted line means "no tangential compliance".
 DASHES: tuple[Dashes, ...] = (
@@ -103,8 +110,14 @@ PRINTED: Style = {"color": "0.3", "linewidth": 0.9}
 # A series for which a drawing has no style of its own.
 POINT: Style = {"marker": "o", "markerfacecolor": "white", "markersize": 3.6}
 OF_PRINT = ("read from the printed curves", POINT | {"color": "0.3", "marker": "+"})
-AS_PRINTED: Style = {"color": PURPLE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
-UNSOLVED: Style = {"color": PURPLE, "alpha": 0.25, "linewidth": 6, "zorder": 1.5}
+AS_PRINTED: Style = {"color": ROSE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
+# Stripes across the curve: a pale band would vanish on the dark ground of a slide.
+UNSOLVED: Style = {"color": ROSE, "linestyle": (0, (0.18, 0.3)), "linewidth": 7, "zorder": 1.5}
+UNSOLVED |= {
+    "dash_joinstyle": "bevel"
+}  # a round one makes a dot where two vertices nearly coincide
+# Headings of panels of the paper's figures: what the print has, and what it does not have.
+PAPERS, OURS = "as the paper describes", "added here"
 
 # Parameters of curves in the paper's letters.
 SYMBOLS = {"mu": r"\mu", "nu": r"\nu", "zeta2": r"\zeta^2"}
@@ -150,7 +163,35 @@ def save(figure: Figure, svg: File, png: File | None = None, source: str = "") -
     figure.dpi = 200  # of the PNG, and of pixels inside the SVG
     if png:
         FigureCanvasAgg(figure).print_png(png, metadata={"Source": source})
-    FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None, "Source": source})
+    text = io.StringIO()
+    FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None, "Source": source})
+    content = shortened(text.getvalue())
+    if isinstance(svg, str):
+        Path(svg).write_text(content, encoding="utf-8")
+    else:
+        svg.write(content.encode())
+
+
+def shortened(svg: str) -> str:
+    """The same picture in a shorter file: short names, no comments, no idle digits.
+
+    A hundredth of a point is far below the width of a line.
+
+    >>> shortened('<g id="line_1">\\n  <!-- e = 1 -->\\n  <path d="M 1.23456 2 \\nL 3.5 4"/></g>')
+    '<g><path d="M1.23 2L3.5 4"/></g>'
+    """
+
+    def path(match: re.Match[str]) -> str:
+        digits = re.sub(r"(\.\d\d)\d+", r"\1", match[1])
+        return re.sub(r"\s*([A-Za-z])\s*", r"\1", digits).strip()
+
+    svg = re.sub(r"<!--.*?-->", "", svg, flags=re.DOTALL)
+    svg = re.sub(r'<g id="[^"]*"', "<g", svg)
+    svg = re.sub(r">\s+<", "><", svg)
+    svg = re.sub(r'(?<= d=")([^"]*)(?=")', path, svg)
+    for place, name in enumerate(re.findall(r' id="([^"]*)"', svg)):
+        svg = re.sub(rf'(?<=[#"]){re.escape(name)}(?=[")])', f"i{place}", svg)
+    return svg
 
 
 def parameters(curve: Table) -> str:
@@ -231,16 +272,17 @@ def rigid(
     y: str,
     compliant: Table,
     label: str = "no tangential compliance",
+    **style: Any,
 ) -> Line2D:
     """Line without tangential compliance, left out where the compliant curve is the same."""
     rows = ~np.isclose(curve[y], compliant[y])
-    return line(axes, curve, x, y, rows, label=label, **RIGID)
+    return line(axes, curve, x, y, rows, label=label, **RIGID | style)
 
 
 def as_printed(axes: Axes, curves: Table, x: str, y: str, equations: str) -> Entries:
     """Draw what the printed equations give, see `printed_variants`; entries of the legend.
 
-    A curve of a restitution alone has its pattern, and an entry that names it. `equations` are the
+    A curve of a restitution has its pattern, and an entry that names it. `equations` are the
     numbers of the equations.
     """
     entries = {}
@@ -250,9 +292,10 @@ def as_printed(axes: Axes, curves: Table, x: str, y: str, equations: str) -> Ent
         label, style = f"{equations} as printed", AS_PRINTED
         if curve["variant"].iloc[0] == names.NO_SOLUTION:
             label, style = "no solution as printed", UNSOLVED
-        elif "e" in curve and "mu" not in curve:
-            label += f", {parameters(curve)}"
-            style = style | {"linestyle": of_restitution(curve["e"].iloc[0])}
+        elif "e" in curve:
+            e = curve["e"].iloc[0]
+            label += f", $e = {e:g}$"
+            style = style | {"linestyle": of_restitution(e)}
         entries[label] = line(axes, curve, x, y, label=label, **style)
     return list(entries.values())
 
@@ -266,6 +309,16 @@ def measured(axes: Axes, series: Scatter, **style: Any) -> Artist:
     return axes.errorbar(series.x, series.y, yerr=y_error, xerr=x_error, **(bars | style))
 
 
+def of_print(points: Points, shown: Collection[str] = ()) -> tuple[Points, Points]:
+    """Series for the panels of the paper: `shown` there, or read from its curves. And all others.
+
+    >>> [list(part) for part in of_print({"a/b": 0, "c/d": 1, "stronge1994/e": 2}, ["a/b"])]
+    [['a/b', 'stronge1994/e'], ['c/d']]
+    """
+    paper = {k: own for k, own in points.items() if k in shown or k.startswith(f"{names.STRONGE}/")}
+    return paper, {name: own for name, own in points.items() if name not in paper}
+
+
 def references(
     axes: Axes,
     points: Points,
@@ -276,12 +329,13 @@ def references(
     """Draw all published series with the axes of a panel; entries of the legend by their names.
 
     `styles` has the styles of some series, which come first; one of them that is awaited has an
-    entry too. Series of the printed curves have one entry.
+    entry with its marker too. Series of the printed curves have one entry.
     """
     entries: dict[str, Any] = {name: None for name in styles if name in points}
     for name, series in points.items():
         if name in styles and isinstance(series, Awaited):
-            entries[name] = key(f"{series.legend or name}: awaited", linestyle="none")
+            label = f"{series.legend or name}: points awaited"
+            entries[name] = key(label, **{"linestyle": "none"} | styles[name])
         elif isinstance(series, Scatter) and series.is_published and series.axes == (x, y):
             printed = name.startswith(f"{names.STRONGE}/")
             label, style = OF_PRINT if printed else (series.legend or name, POINT)
@@ -290,11 +344,46 @@ def references(
     return {name: entry for name, entry in entries.items() if entry}
 
 
-def letter(panels: Sequence[Axes]) -> None:
-    """Name panels above each other (a), (b) and so on; only the last keeps its label below."""
-    for name, axes in zip("abcdef", panels, strict=False):
-        axes.set_ylabel(f"({name}) {axes.get_ylabel()}")
-        axes.xaxis.label.set_visible(axes is panels[-1])
+def letter(panels: Sequence[Axes], headings: Sequence[str] = (), first: int = 0) -> None:
+    """Name panels (a), (b) and so on, at the left above them, from the letter `first` on.
+
+    A panel has the heading of its place behind the letter, or none.
+    """
+    for place, axes in enumerate(panels):
+        words = headings[place] if place < len(headings) else ""
+        title = f"({'abcdef'[first + place]}) {words}".strip()
+        axes.set_title(title, loc="left", fontsize=NOTE, style="italic")
+
+
+def above_each_other(panels: Sequence[Axes]) -> None:
+    """Of panels with one x axis only the last keeps its label and the numbers below."""
+    for axes in panels[:-1]:
+        axes.xaxis.label.set_visible(False)
+        axes.tick_params(labelbottom=False)
+
+
+def name_curve(
+    axes: Axes,
+    curve: Table,
+    x: str,
+    y: str,
+    name: str,
+    at: float,
+    away: tuple[float, float] = (0, 0),
+    **style: Any,
+) -> None:
+    """Write a name beside one curve, at its point with the abscissa `at`.
+
+    `away` is how far the middle of the name is from that point, in points of type; a thin line
+    leads to a name that is farther than 20. Without it the name interrupts the curve.
+    """
+    order = curve.sort_values(x, kind="stable")
+    place = at, float(np.interp(at, order[x], order[y]))
+    look: Style = {"fontsize": NOTE, "ha": "center", "va": "center", "zorder": 4}
+    look["bbox"] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
+    if np.hypot(*away) > 20:
+        look["arrowprops"] = {"arrowstyle": "-", "linewidth": 0.5, "color": GREY, "shrinkB": 0}
+    axes.annotate(name, place, away, textcoords="offset points", **look | style)
 
 
 def angle_axes(panels: Sequence[Axes], span: Sequence[float]) -> None:

@@ -1,18 +1,15 @@
 """A slide: one panel of a figure for a projector, on a light and on a dark ground.
 
 figure.yaml names the panel by its letter and gives the slide a title. The slide has the entries of
-the figure's legend whose labels are those of lines, marks and areas in the panel. It may have only
-some of them.
+the figure's legend whose labels are those of lines, marks and areas in the panel.
 """
 
 import re
 import textwrap
-from collections.abc import Collection
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.legend import Legend
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
@@ -22,32 +19,20 @@ DOTS_PER_INCH = 300
 DARK = np.array([0x15, 0x18, 0x1C])  # ground of the pages and of the lectures
 
 
-def save(
-    figure: Figure,
-    panel: str,
-    title: str,
-    light: str,
-    dark: str,
-    source: str = "",
-    only: Collection[str] = (),
-) -> None:
-    """Reduce a figure to one panel, and write both files; `source` goes to their metadata.
-
-    `only` names the entries of the legend that stay, each without its numbers; without it all do.
-    """
-    kept = next(a for a in figure.axes if f"({panel})" in a.get_ylabel() + a.get_title())
-    for artist, label in zip(*kept.get_legend_handles_labels(), strict=True):
-        if only and label.split(", $")[0] not in only:
-            artist.remove()
-    legends = figure.findobj(Legend)
+def save(figure: Figure, panel: str, title: str, light: str, dark: str, source: str = "") -> None:
+    """Reduce a figure to one panel, and write both files; `source` goes to their metadata."""
+    kept = next(a for a in figure.axes if f"({panel})" in a.get_title("left") + a.get_title())
+    # A legend inside the panel stays; that of the figure has entries of other panels, too.
+    legends = list(figure.legends)
     known = {text.get_text() for legend in legends for text in legend.get_texts()}
     pairs = zip(*kept.get_legend_handles_labels(), strict=True)
     shown = {label: artist for artist, label in pairs if label in known}
     for part in [*legends, *(axes for axes in figure.axes if axes is not kept)]:
         part.remove()
     kept.set_subplotspec(figure.add_gridspec()[0])
-    labels = (re.sub(r"^\(\w\) ", "", label) for label in (kept.get_ylabel(), kept.get_title()))
-    kept.set(**dict(zip(("ylabel", "title"), labels, strict=True)))
+    for place in ("left", "center"):
+        words = re.sub(r"^\(\w\) ?", "", kept.get_title(place))
+        kept.set_title(words, loc=place)
     for axis in (kept.xaxis, kept.yaxis):
         axis.label.set_visible(True)
         axis.set_tick_params(labelbottom=True, labelleft=True)

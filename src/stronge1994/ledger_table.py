@@ -4,23 +4,20 @@ import textwrap
 from collections import Counter
 from collections.abc import Sequence
 
-from stronge1994.ledger.finding import MODELS
 from stronge1994.tables import Row
 
-COLUMNS = [
-    "kind", "entry", "holds", "verdict", "only_if", "grade", "cause", "where", "says", "test",
-    "found", "confirms", "corrected", "problem", "reading", "range", "correction",
-    "derivation", "because", "why", "in_nature", "nature", "nature_test", "nature_found",
-    "nature_true_if",
-]  # fmt: skip
-# Columns of the table of what the checks of `nature` find.
-OF_NATURE = ["measure", "what", *MODELS]
+VERDICTS = ("confirmed", "confirmed within rounding", "wrong", "not testable")
 # Grades of wrong entries, the gravest first, each with a text to stand after its number.
 GRADES = {
     "changes a result": "change a result",
     "sign or misprint": "are signs or misprints (perhaps the scan's)",
     "matter of judgement": "are matters of judgement",
 }
+COLUMNS = [
+    "kind", "entry", "holds", "verdict", "only_if", "grade", "cause", "where", "says", "test",
+    "found", "confirms", "corrected", "problem", "reading", "range", "correction",
+    "derivation", "because", "why", "code",
+]  # fmt: skip
 
 
 def failing(rows: Sequence[Row]) -> list[Row]:

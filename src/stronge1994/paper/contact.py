@@ -13,10 +13,10 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from planarimpact import lumped, models
+from planarimpact import lumped, models, rigid
 from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from planarimpact.common.results import Event, EventKind, History, Rebound
-from stronge1994.printed import dynamics, slip
+from stronge1994.printed import equations
 
 # The sphere of the paper's examples (p. 444), and others, all with omega > Omega as it assumes,
 # and omega < 2 Omega, beyond which stick can come back (`rebound.three_sequences`).
@@ -30,6 +30,8 @@ INCIDENCE = np.linspace(0, 8, 2001)[1:]
 # Where slip throughout begins on the paper's sphere at e = 1: 2 m2/m1 - zeta^2.
 ELASTIC_LIMIT = 2 * MASS_RATIO - STIFFNESS_RATIO
 
+# What a check yields at one place.
+Gaps = Iterator[ArrayLike]
 _Answer = TypeVar("_Answer")
 _KNOWN: dict[tuple[Any, ...], Any] = {}
 
@@ -140,7 +142,7 @@ class Contact:
 
         `others` are arguments that a contact does not have, or that take the place of its own.
 
-        >>> Contact(8.0).printed(slip.eq_27_rebound)
+        >>> Contact(8.0).printed(equations.eq_27_rebound)
         1.0
         """
         names = inspect.signature(formula).parameters
@@ -163,7 +165,11 @@ class Contact:
 
     def impulse(self, t: Numbers) -> Array:
         """p(t) by Table 1."""
-        return self.printed(dynamics.table_1_impulse, t=t)
+        return self.printed(equations.table_1_impulse, t=t)
+
+    def strain_energy(self, state: State) -> Array:
+        """Tangential strain energy in a state."""
+        return self.stiffness / self.stiffness_ratio * state.u1**2 / 2
 
     @property
     def impulse_left(self) -> Array:
@@ -173,7 +179,7 @@ class Contact:
     @property
     def g1(self) -> Array:
         """Normal impulse after t1 over that of compression, by the formula after Eq. 14."""
-        return self.printed(slip.impulse_ratio)
+        return self.printed(equations.impulse_ratio)
 
     def integral(self, values: Array) -> Array:
         """Integral over time of values along the path, piece by piece between its kinks.
@@ -265,6 +271,16 @@ def slip_throughout() -> Iterator[Contact]:
         for e in RESTITUTIONS:
             for factor in (1.001, 1.3, 4.0):
                 yield Contact(factor * (1 + e) * beta, beta, zeta2, e)
+
+
+def lumped_sphere(x: Array) -> Rebound:
+    """Rebounds of the paper's sphere, e = 1."""
+    return once(lumped.rebound, x, *SPHERE)
+
+
+def rigid_sphere(x: Array) -> Rebound:
+    """The same without tangential compliance."""
+    return rigid.rebound(x, MASS_RATIO)
 
 
 def without_micro_slip(incidence: Array) -> Rebound:
