@@ -60,7 +60,7 @@ REPRODUCTION = {
     " matplotlib pandas",
     "ledger_table": "tables",
     "paper": "common bodies rigid lumped continuum noncollinear models"
-    " printed tables ledger_table judging",
+    " printed formulas tables ledger_table judging",
     "judging": "common pandas tables names formulas goodness reference_data verdict_table",
     "settings": "reference_data judging names",
     "versions": "planarimpact",
