@@ -132,7 +132,9 @@ def _draw_paper(
     )
     house_style.name_spans(axes, spans)
     if series := house_style.references(axes, points, X, Y, IN_PAPER).values():
-        axes.legend(handles=list(series), loc="lower center", fontsize=house_style.NOTE, frameon=True)
+        axes.legend(
+            handles=list(series), loc="lower center", fontsize=house_style.NOTE, frameon=True
+        )
 
 
 def _draw_gap(axes: Axes, curves: Table, right: float, points: Points) -> None:
