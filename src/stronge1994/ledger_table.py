@@ -20,6 +20,10 @@ COLUMNS = [
 ]  # fmt: skip
 
 
+class EntryError(Exception):
+    """An entry that is not complete, or contradicts itself; the message names it."""
+
+
 def failing(rows: Sequence[Row]) -> list[Row]:
     """Rows whose recorded verdict no longer holds."""
     return [row for row in rows if row["holds"] == "no"]

@@ -34,6 +34,11 @@ def test_a_refused_start_does_nothing(fresh):
         result = fresh.run(*arguments)
         assert result.returncode != 0 and re.search(words, result.stdout), result.stdout
         assert "Traceback" not in result.stdout and not (fresh / "results").exists()
+    entries = fresh / "src/stronge1994/paper/dynamics.py"
+    entries.write_text(entries.read_text("utf-8").replace('"p. 437, Eq. 1"', '"Eq. 1"'), "utf-8")
+    result = fresh.run()
+    assert "\neq-01: where is 'Eq. 1': it begins with a page" in result.stdout, result.stdout
+    assert "Traceback" not in result.stdout and not (fresh / "results").exists()
 
 
 def test_errors_of_snakemake_itself_are_explained(fresh):

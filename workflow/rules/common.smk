@@ -23,7 +23,7 @@ os.environ.update(PYTHONPATH=sys.path[0])
 # Snakemake puts this path into the command of a script without quotes (its issue 2645): the blanks of a
 # folder `OneDrive - NTNU` would break it.
 sys.executable = shlex.quote(sys.executable)
-from stronge1994 import paper, reference_data, settings
+from stronge1994 import ledger_table, reference_data, settings
 from stronge1994.names import is_of_paper
 from stronge1994.settings import config as configuration
 from stronge1994.settings import figures
@@ -36,13 +36,15 @@ try:
         [configuration.FILE, *workflow.config_settings.configfiles],
         workflow.config_settings.config_args or (),
     )
+    from stronge1994 import paper  # which refuses an entry that is not complete
+
     SOURCES = reference_data.load_all("data")
     LEDGER = paper.entries(SOURCES["stronge1994"]["facts"])
     ENTRIES = list(LEDGER)
     configuration.check_config(config, SOURCES, ENTRIES)
     FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
     JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}
-except (reference_data.SourceError, paper.EntryError) as error:
+except (reference_data.SourceError, ledger_table.EntryError) as error:
     raise WorkflowError(str(error))
 
 PAPER = [figure for figure in FIGURES if is_of_paper(figure)]

@@ -14,7 +14,8 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
-from stronge1994.paper.entry import LEDGER, REFERENCE, Entry, EntryError
+from stronge1994.ledger_table import EntryError
+from stronge1994.paper.entry import LEDGER, REFERENCE, Entry
 from stronge1994.paper.words import CAUSES, SYMBOLS
 
 __all__ = ["CAUSES", "SECTIONS", "SYMBOLS", "Entry", "EntryError", "entries"]

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from planarimpact.common.arrays import ArrayLike
-from stronge1994.ledger_table import GRADES, VERDICTS
+from stronge1994.ledger_table import GRADES, VERDICTS, EntryError
 from stronge1994.paper.words import CAUSES
 
 # Numbers nearer than this are equal. It leaves room for the rounding of a few hundred operations,
@@ -32,10 +32,6 @@ EQUATION = re.compile(r"(eq|formula|table)-")
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
 
 _Check = TypeVar("_Check", bound=Callable[..., Any])
-
-
-class EntryError(Exception):
-    """An entry that is not complete, or contradicts itself; the message names it."""
 
 
 class Finding(NamedTuple):
