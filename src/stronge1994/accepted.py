@@ -59,7 +59,7 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
     """Rows that are not as accepted, a line for each, but for those that fail.
 
     A comparison that nobody has accepted must not differ, nor one whose points were still awaited.
-    An entry of the ledger is accepted, whatever it finds.
+    Each entry of the ledger must have been accepted.
     Of a figure that has other settings nothing can be told: the gate says so by itself.
 
     >>> was = dict.fromkeys(COLUMNS, "") | {"name": "a", "verdict": "differs", "size": "1.5"}

@@ -39,8 +39,7 @@ try:
     from stronge1994 import paper  # which refuses an entry that is not complete
 
     SOURCES = reference_data.load_all("data")
-    LEDGER = paper.entries(SOURCES["stronge1994"]["facts"])
-    ENTRIES = list(LEDGER)
+    ENTRIES = list(paper.entries(SOURCES["stronge1994"]["facts"]))
     configuration.check_config(config, SOURCES, ENTRIES)
     FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
     JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}

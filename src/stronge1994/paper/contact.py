@@ -137,7 +137,7 @@ class Contact:
             np.asarray(event_or_history.spring) * -self.velocity_scale / self.normal_frequency,
         )
 
-    def printed(self, formula: Callable[..., Any], **others: Numbers | Sequence[int]) -> Any:
+    def printed(self, formula: Callable[..., Any], **others: Any) -> Any:
         """A formula of `stronge1994.printed` with the symbols of this contact.
 
         `others` are arguments that a contact does not have, or that take the place of its own.
@@ -166,6 +166,20 @@ class Contact:
     def impulse(self, t: Numbers) -> Array:
         """p(t) by Table 1."""
         return self.printed(equations.table_1_impulse, t=t)
+
+    def angle(self, t: Numbers) -> Numbers:
+        """Angle of restitution at t."""
+        return self.printed(equations.restitution_angle, t=t)
+
+    def by_half(
+        self,
+        t: Numbers,
+        in_compression: Callable[[Numbers], Array],
+        in_restitution: Callable[[Numbers], Array],
+    ) -> Array:
+        """A formula for each half of the contact, as in Table 1: functions of the angle."""
+        ways = {"in_compression": in_compression, "in_restitution": in_restitution}
+        return self.printed(equations.halves, t=t, **ways)
 
     def strain_energy(self, state: State) -> Array:
         """Tangential strain energy in a state."""

@@ -8,7 +8,7 @@ from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from stronge1994.paper import contact
 from stronge1994.paper.contact import Contact, Gaps, NormalMotion
 from stronge1994.paper.entry import entry, largest
-from stronge1994.printed.equations import eq_7b_velocity, restitution_angle, table_1_force
+from stronge1994.printed.equations import eq_7b_velocity, table_1_force
 
 # A plate struck away from its normal: mass, radius of gyration, and C from the centre. And one
 # struck along it.
@@ -137,19 +137,13 @@ def eq_6a(c: Contact, t: Numbers) -> Array:
 
 def eq_6b(c: Contact, t: Numbers) -> Array:
     """v2 in restitution."""
-    return c.restitution * c.v2 * cos(_angle(c, t))
-
-
-def _angle(c: Contact, t: Numbers) -> Numbers:
-    return restitution_angle(t, c.normal_frequency, c.restitution)
+    return c.restitution * c.v2 * cos(c.angle(t))
 
 
 def table_1_displacement(c: Contact, t: Array) -> Array:
     """Table 1: u2."""
     e2 = c.restitution**2
-    unloading = 1 - e2 + e2 * sin(_angle(c, t))
-    early = t <= c.compression_time
-    return c.v2 / c.normal_frequency * np.where(early, sin(c.normal_frequency * t), unloading)
+    return c.v2 / c.normal_frequency * c.by_half(t, sin, lambda a: 1 - e2 + e2 * sin(a))
 
 
 def table_1_velocity(c: Contact, t: Array) -> Array:

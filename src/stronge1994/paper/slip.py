@@ -17,17 +17,6 @@ from stronge1994.paper.introduction import annulus_slips
 from stronge1994.printed import equations
 
 
-def _angle(c: Contact, t: Numbers) -> Numbers:
-    """Angle of restitution."""
-    return equations.restitution_angle(t, c.normal_frequency, c.restitution)
-
-
-def _sine(c: Contact, t: Numbers) -> Array:
-    """Normal force over its largest value, by the half of Table 1 in which t lies."""
-    early = t <= c.compression_time
-    return np.where(early, sin(c.normal_frequency * t), sin(_angle(c, t)))
-
-
 @entry(
     "eq-10",
     "p. 440, Eqs 10a, 10b",
@@ -45,7 +34,7 @@ def force_ratio(impact: Contact) -> Gaps:
     def printed(t1: Array) -> Array:
         """The left side over the right one."""
         swing = impact.normal_frequency / omega * sin(omega * t1)
-        return np.abs(impact.incidence * swing / (zeta2 * _sine(impact, t1)))
+        return np.abs(impact.incidence * swing / (zeta2 * impact.by_half(t1, sin, sin)))
 
     yield np.maximum(printed(impact.between(0.0, impact.t1).t[1:-1]) - 1, 0)
     reached = np.abs(impact.onset.force_1) / (impact.friction * impact.onset.force_2)
@@ -255,7 +244,7 @@ def deflection_at_stick(impact: Contact) -> Gaps:
     # With the sign that F1 = (kappa/zeta^2) u1 asks for.
     scale = impact.m2 * impact.normal_frequency * impact.v2
     scale = scale / (impact.m1 * impact.tangential_frequency**2)
-    printed = -impact.friction * scale * _sine(impact, impact.t2)
+    printed = -impact.friction * scale * impact.by_half(impact.t2, sin, sin)
     yield (printed - impact.u1_t2) * impact.normal_frequency / impact.velocity_scale
 
 
@@ -276,8 +265,8 @@ def velocity_at_stick(impact: Contact) -> Gaps:
 
 def eq_20(c: Contact, t: Numbers) -> Array:
     """dF2/dt."""
-    early, later = cos(c.normal_frequency * t), cos(_angle(c, t)) / c.restitution
-    return -c.m2 * c.normal_frequency**2 * c.v2 * np.where(t <= c.compression_time, early, later)
+    halves = c.by_half(t, cos, lambda a: cos(a) / c.restitution)
+    return -c.m2 * c.normal_frequency**2 * c.v2 * halves
 
 
 @entry(
@@ -311,7 +300,7 @@ def normal_force_rate(impact: Contact) -> Gaps:
 def end_of_first_slip(impact: Contact) -> Gaps:
     """Eq. 21 at the exact start of stick gives the incidence back."""
     late = impact.t2 > impact.compression_time
-    angle = _angle(impact, impact.t2) if late else impact.normal_frequency * impact.t2
+    angle = impact.angle(impact.t2) if late else impact.normal_frequency * impact.t2
     e = impact.restitution if late else 1.0
     printed = impact.mass_ratio * (1 - e * cos(angle)) + impact.stiffness_ratio / e * cos(angle)
     yield printed / impact.incidence - 1
@@ -353,7 +342,7 @@ def onset_of_second_slip(impact: Contact) -> Gaps:
     stretch = impact.normal_frequency * impact.u1_t2 / scale * cos(angle)
     swing = impact.normal_frequency * impact.v1_t2 / (omega * impact.friction * impact.v2)
     swing = swing * sin(angle)
-    yield stretch - swing - impact.stiffness_ratio * sin(_angle(impact, impact.t3))
+    yield stretch - swing - impact.stiffness_ratio * sin(impact.angle(impact.t3))
 
 
 def eq_24(c: Contact) -> Array:

@@ -16,7 +16,7 @@ def restitution_angle(t: Numbers, normal_frequency: Numbers, restitution: Number
     return normal_frequency * t / restitution + np.pi / 2 * (1 - 1 / restitution)
 
 
-def _halves(
+def halves(
     t: Numbers,
     normal_frequency: Numbers,
     restitution: Numbers,
@@ -40,7 +40,7 @@ def table_1_force(
     2.0
     """
     scale = -m2 * normal_frequency * v2
-    return scale * _halves(t, normal_frequency, restitution, np.sin, np.sin)
+    return scale * halves(t, normal_frequency, restitution, np.sin, np.sin)
 
 
 def table_1_impulse(
@@ -53,7 +53,7 @@ def table_1_impulse(
     """
     e = restitution
     scale = -m2 * v2
-    return scale * _halves(
+    return scale * halves(
         t, normal_frequency, e, lambda a: 1 - np.cos(a), lambda a: 1 - e * np.cos(a)
     )
 

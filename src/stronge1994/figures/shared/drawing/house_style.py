@@ -113,9 +113,7 @@ OF_PRINT = ("read from the printed curves", POINT | {"color": "0.3", "marker": "
 AS_PRINTED: Style = {"color": ROSE, "linestyle": "-", "linewidth": 1.2, "zorder": 2.2}
 # Stripes across the curve: a pale band would vanish on the dark ground of a slide.
 UNSOLVED: Style = {"color": ROSE, "linestyle": (0, (0.18, 0.3)), "linewidth": 7, "zorder": 1.5}
-UNSOLVED |= {
-    "dash_joinstyle": "bevel"
-}  # a round one makes a dot where two vertices nearly coincide
+UNSOLVED["dash_joinstyle"] = "bevel"  # a round one makes a dot where two vertices nearly coincide
 # Headings of panels of the paper's figures: what the print has, and what it does not have.
 PAPERS, OURS = "as the paper describes", "added here"
 
@@ -189,9 +187,8 @@ def shortened(svg: str) -> str:
     svg = re.sub(r'<g id="[^"]*"', "<g", svg)
     svg = re.sub(r">\s+<", "><", svg)
     svg = re.sub(r'(?<= d=")([^"]*)(?=")', path, svg)
-    for place, name in enumerate(re.findall(r' id="([^"]*)"', svg)):
-        svg = re.sub(rf'(?<=[#"]){re.escape(name)}(?=[")])', f"i{place}", svg)
-    return svg
+    short = {name: f"i{place}" for place, name in enumerate(re.findall(r' id="([^"]*)"', svg))}
+    return re.sub(r'(?<=[#"])[^#"()]+(?=[")])', lambda named: short.get(named[0], named[0]), svg)
 
 
 def parameters(curve: Table) -> str:
