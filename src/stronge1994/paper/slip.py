@@ -117,6 +117,14 @@ def rebound_after_stick(impact: Contact) -> Gaps:
     yield impact.printed(equations.eq_15_rebound, v1_t1=impact.v1_t1 / scale) - impact.final / scale
 
 
+def limits_of_slip(_: float) -> tuple[str, str]:
+    """Where slip throughout begins as printed, and by the regimes of the model; e is 1 and 0.5."""
+    pairs = [slip_throughout_limit((contact.SPHERE, e)) for e in (1.0, 0.5)]
+    printed = [equations.slip_throughout_limit(contact.MASS_RATIO, e) for e in (1.0, 0.5)]
+    own = [limit - float(off) for limit, (off, _) in zip(printed, pairs, strict=True)]
+    return f"{printed[0]:.3g}, {printed[1]:.3g} mu v2(0)", f"{own[0]:.3g}, {own[1]:.3g} mu v2(0)"
+
+
 @entry(
     "slip-throughout-limit",
     "pp. 441 and 445, headings of the intermediate angles of incidence; p. 443, 2nd sentence "
@@ -128,6 +136,8 @@ def rebound_after_stick(impact: Contact) -> Gaps:
     verdict="wrong",
     grade="changes a result",
     cause="slip-limit",
+    quantity="slip throughout from, e = 1 and 0.5",
+    values=limits_of_slip,
     explorer={"angle": 72.6, "friction": 0.5, "restitution": 1, "view": "velocity"},
     correction=r"Slip throughout begins at $m_2/m_1 + \mathrm{max}(0, e m_2/m_1 - \zeta^2/e)$, but "
     r"not below $\zeta^2$. For the paper's sphere this is 5.79 instead of 7 at $e = 1$, and 3.5 "
@@ -551,6 +561,8 @@ def deflection_when_slip_reverses() -> float:
     verdict="wrong",
     grade="changes a result",
     cause="last-slip-direction",
+    quantity="last slip against the first",
+    values=lambda e: ("always", f"only if e > {e:.2g}"),
     explorer={"angle": 58, "friction": 0.5, "restitution": 0.5, "view": "velocity"},
     correction="The sentence is right at all intermediate incidences only for $e > "
     r"\Omega/\omega$, which is 0.588 for the paper's sphere. At $e = 0.5$ it is right only for "

@@ -1,0 +1,136 @@
+"""What a run has found, as questions and answers: for a terminal, README.md and the report."""
+
+import textwrap
+from collections import Counter
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from stronge1994 import figure_table, ledger_table, words
+from stronge1994.ledger_table import CONFIRMED, NOT_TESTABLE, ROUNDED, WRONG
+from stronge1994.tables import Row, with_unit
+from stronge1994.verdict_table import WIDTH, Group, Verdict
+
+# Whose measurements they are is the name of the source. A source that is not here is told by that.
+MEASURED = {
+    "osakue_rogers2001": "two inequalities about friction",
+    "cornell1999": "pairs of materials below e = 1",
+    "lewis_rogers1988": "angle of largest friction",
+    "kharaz2001": "alumina on glass",
+    "cross2014": "a rubber sphere",
+}
+COMPUTED = ("maw1976", "chung_ooi2011")  # by others, and so no measurements
+ASKED = (Verdict.AGREES, Verdict.DIFFERS, Verdict.CANNOT_TELL, Verdict.CANNOT_JUDGE)
+# The paper's model and the continuum, where the contact sticks first.
+STICKS_FIRST = "fig5-lumped-maw-initial-stick"
+COPY = "figures/your_copy.html"
+
+
+class Change(NamedTuple):
+    """What an error of the paper changes: the result as printed, and by the paper's own model."""
+
+    quantity: str
+    printed: str
+    by_model: str
+    entries: list[str]
+
+
+class Answer(NamedTuple):
+    """A question of a reader, the answer in sentences, and what changes a result."""
+
+    question: str
+    told: list[str]
+    table: Sequence[Change] = ()
+
+
+def changes(ledger: Sequence[Row]) -> list[Change]:
+    """The errors that change a result; entries that change the same one stand together."""
+    found: dict[tuple[str, str, str], list[str]] = {}
+    for row in ledger:
+        if row["quantity"]:
+            key = row["quantity"], row["printed"], row["by model"]
+            found.setdefault(key, []).append(row["entry"])
+    return [Change(*key, entries) for key, entries in found.items()]
+
+
+def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
+    """Questions and answers, from the tables of a whole run."""
+    found = Counter(row["verdict"] for row in ledger)
+    right, under = found[CONFIRMED] + found[ROUNDED], ledger_table.conditional(ledger)
+    grave = changes(ledger)
+    count = sum(len(change.entries) for change in grave)
+    apart = next(row for row in verdicts if row["comparison"] == STICKS_FIRST)
+    size = with_unit(float(f"{float(apart['max']):.2g}"), apart["unit"])
+    return [
+        Answer("Does our solver solve the paper's model?", [_of_solver(verdicts)]),
+        Answer(
+            "Are the paper's statements right, by its own model?",
+            [
+                f"{right} of {len(ledger)} are, {under} of them only under a condition. "
+                f"{found[WRONG]} are not, {found[NOT_TESTABLE]} cannot be tested: "
+                "figures/ledger.html"
+            ],
+        ),
+        Answer("Which errors change a result?", [f"{count}:"], grave),
+        Answer("Are our curves the printed ones?", [_of_prints(verdicts)]),
+        Answer(
+            'Is the model "practically identical" with Maw\'s continuum?',
+            [f"Its limits of slip are. Where the contact sticks first, up to {size} apart"],
+        ),
+        Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
+        Answer(
+            "What makes a run fail?",
+            ["A curve outside its tolerance, or a result that is not the accepted one"],
+        ),
+    ]
+
+
+def _of_solver(verdicts: Sequence[Row]) -> str:
+    own = [row for row in verdicts if row["group"] == Group.SOLVER]
+    failed = sum(row["verdict"] == Verdict.FAILS for row in own)
+    exact = sum("_40_digits/" in row["reference"] for row in own)
+    told = f"no, {failed} of {len(own)} checks fail" if failed else f"Yes, by {len(own)} checks"
+    return f"{told}: with independent codes, {exact} of them to 40 digits, and with laws"
+
+
+def _of_prints(verdicts: Sequence[Row]) -> str:
+    curves = [row for row in verdicts if row["group"] == Group.PRINTED and row["curve"]]
+    read = [row for row in curves if row["verdict"] != Verdict.NOT_COMPARED]
+    if not read:
+        return f"Not known: we have the text, not the figures. With a copy: {COPY}"
+    return f"{len(read)} of {len(curves)} were compared: {figure_table.counted(read)}"
+
+
+def _of_measurements(verdicts: Sequence[Row]) -> list[str]:
+    """Sources of measurements by their verdicts on the paper's model."""
+    found: dict[str, dict[str, None]] = {}
+    for row in verdicts:
+        source = row["reference"].split("/")[0]
+        if row["group"] != Group.OTHERS or source in COMPUTED:
+            continue
+        if row["model"] in figure_table.MODELS_OF_PAPER and row["verdict"] in ASKED:
+            found.setdefault(source, {})[row["verdict"]] = None
+    told = []
+    for verdict in ASKED:
+        named = []
+        for source, own in found.items():
+            if verdict in own:
+                what = f"{MEASURED[source]}, " if source in MEASURED else ""
+                part = " in part" if len(own) > 1 else ""
+                named.append(f"{what}{words.source(source)}{part}")
+        told += [f"{words.sentence(verdict)}: {'; '.join(named)}"] if named else []
+    return told
+
+
+def text(answers: Sequence[Answer]) -> str:
+    """Questions and answers for a terminal."""
+    lines = []
+    for answer in answers:
+        lines.append(answer.question)
+        for told in answer.told:
+            lines += textwrap.wrap(told, WIDTH, initial_indent="  ", subsequent_indent="    ")
+        if answer.table:
+            rows = [(row.quantity, row.printed, row.by_model) for row in answer.table]
+            rows.insert(0, (lines.pop().strip(), "printed", "by his model"))
+            first, second, _ = (max(map(len, column)) for column in zip(*rows, strict=True))
+            lines += [f"  {a:<{first}}  {b:<{second}}  {c}" for a, b, c in rows]
+    return "\n".join(lines)
