@@ -10,16 +10,16 @@ from stronge1994.ledger_table import CONFIRMED, NOT_TESTABLE, ROUNDED, WRONG
 from stronge1994.tables import Row, with_unit
 from stronge1994.verdict_table import WIDTH, Group, Verdict
 
-# Whose measurements they are is the name of the source. A source that is not here is told by that.
+# What was measured, where the name of a source says too little.
 MEASURED = {
-    "osakue_rogers2001": "two inequalities about friction",
-    "cornell1999": "pairs of materials below e = 1",
+    "osakue_rogers2001": "two inequalities",
+    "cornell1999": "pairs of materials, e < 1",
     "lewis_rogers1988": "angle of largest friction",
-    "kharaz2001": "alumina on glass",
-    "cross2014": "a rubber sphere",
+    "cross2014": "rubber sphere",
 }
 COMPUTED = ("maw1976", "chung_ooi2011")  # by others, and so no measurements
 ASKED = (Verdict.AGREES, Verdict.DIFFERS, Verdict.CANNOT_TELL, Verdict.CANNOT_JUDGE)
+UNPUBLISHED = "no scatter published"
 # The paper's model and the continuum, where the contact sticks first.
 STICKS_FIRST = "fig5-lumped-maw-initial-stick"
 COPY = "figures/your_copy.html"
@@ -53,7 +53,7 @@ def changes(ledger: Sequence[Row]) -> list[Change]:
 
 
 def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
-    """Questions and answers, from the tables of a whole run."""
+    """Questions and answers, from the tables of a whole run that has passed."""
     found = Counter(row["verdict"] for row in ledger)
     right, under = found[CONFIRMED] + found[ROUNDED], ledger_table.conditional(ledger)
     grave = changes(ledger)
@@ -61,20 +61,19 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
     apart = next(row for row in verdicts if row["comparison"] == STICKS_FIRST)
     size = with_unit(float(f"{float(apart['max']):.2g}"), apart["unit"])
     return [
-        Answer("Does our solver solve the paper's model?", [_of_solver(verdicts)]),
+        Answer("Does the solver solve the paper's model?", [_of_solver(verdicts)]),
         Answer(
             "Are the paper's statements right, by its own model?",
             [
-                f"{right} of {len(ledger)} are, {under} of them only under a condition. "
-                f"{found[WRONG]} are not, {found[NOT_TESTABLE]} cannot be tested: "
-                "figures/ledger.html"
+                f"{right} of {len(ledger)} are ({under} only under a condition), "
+                f"{found[WRONG]} are not, {found[NOT_TESTABLE]} cannot be tested"
             ],
         ),
         Answer("Which errors change a result?", [f"{count}:"], grave),
         Answer("Are our curves the printed ones?", [_of_prints(verdicts)]),
         Answer(
             'Is the model "practically identical" with Maw\'s continuum?',
-            [f"Its limits of slip are. Where the contact sticks first, up to {size} apart"],
+            [f"No: up to {size} apart where the contact sticks first"],
         ),
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(
@@ -86,17 +85,15 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
 
 def _of_solver(verdicts: Sequence[Row]) -> str:
     own = [row for row in verdicts if row["group"] == Group.SOLVER]
-    failed = sum(row["verdict"] == Verdict.FAILS for row in own)
     exact = sum("_40_digits/" in row["reference"] for row in own)
-    told = f"no, {failed} of {len(own)} checks fail" if failed else f"Yes, by {len(own)} checks"
-    return f"{told}: with independent codes, {exact} of them to 40 digits, and with laws"
+    return f"Yes: {len(own)} checks pass, {exact} of 40 digits, by independent codes and laws"
 
 
 def _of_prints(verdicts: Sequence[Row]) -> str:
     curves = [row for row in verdicts if row["group"] == Group.PRINTED and row["curve"]]
     read = [row for row in curves if row["verdict"] != Verdict.NOT_COMPARED]
     if not read:
-        return f"Not known: we have the text, not the figures. With a copy: {COPY}"
+        return f"Not known: we have its text only. With your copy: {COPY}"
     return f"{len(read)} of {len(curves)} were compared: {figure_table.counted(read)}"
 
 
@@ -114,10 +111,11 @@ def _of_measurements(verdicts: Sequence[Row]) -> list[str]:
         named = []
         for source, own in found.items():
             if verdict in own:
-                what = f"{MEASURED[source]}, " if source in MEASURED else ""
+                what = f" ({MEASURED[source]})" if source in MEASURED else ""
                 part = " in part" if len(own) > 1 else ""
-                named.append(f"{what}{words.source(source)}{part}")
-        told += [f"{words.sentence(verdict)}: {'; '.join(named)}"] if named else []
+                named.append(f"{words.source(source)}{part}{what}")
+        why = f", {UNPUBLISHED}" if verdict == Verdict.CANNOT_JUDGE else ""
+        told += [f"{words.sentence(verdict)}{why}: {'; '.join(named)}"] if named else []
     return told
 
 

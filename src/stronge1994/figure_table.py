@@ -65,7 +65,7 @@ def of_run(
 ) -> list[FigureRow]:
     """A row for each figure that `shows` names, from the rows of the verdict table.
 
-    `grades` are those of the ledger's entries, which say how wrong the paper is; empty if it is not.
+    `grades` are those of the ledger's entries, which say how wrong the paper is; else empty.
     """
     table = pd.DataFrame([dict.fromkeys(COLUMNS, "") | row for row in rows], columns=COLUMNS)
     for column in NUMBERS:
@@ -131,7 +131,9 @@ def _items(rows: Table, models: Table | None = None) -> Iterator[Item]:
             of_series = rows[rows["reference"] == first["reference"]]
             size = _against_points(own, first, name, of_series["points"].sum())
             others = _of_others(models, first)
-        yield Item(worst_first["comparison"].tolist(), verdict, entry, name, says, size, reason, others)
+        yield Item(
+            worst_first["comparison"].tolist(), verdict, entry, name, says, size, reason, others
+        )
 
 
 def _of_others(models: Table | None, first: Row) -> str:
@@ -222,4 +224,6 @@ def counted(rows: Iterable[Row]) -> str:
     '1 agrees, 1 differs'
     """
     counts = Counter(row["verdict"] for row in rows)
-    return ", ".join(f"{counts[verdict]} {verdict}" for verdict in reversed(Verdict) if counts[verdict])
+    return ", ".join(
+        f"{counts[verdict]} {verdict}" for verdict in reversed(Verdict) if counts[verdict]
+    )

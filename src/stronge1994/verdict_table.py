@@ -24,8 +24,9 @@ class Verdict(StrEnum):
     is a check of our solver that has left its tolerance, or what cannot be compared. CANNOT_TELL is
     no evidence: published points would also agree with a curve that is a tenth too large, or their
     p is between agreement and difference, see `judging.verdicts`. CANNOT_JUDGE stands where an
-    error of the points is not published: the distance stands there as a number. PASSED is a check of our solver
-    by our own second codes, by 40 digits or by a law; such a check never agrees with anything.
+    error of the points is not published: the distance is a number without a verdict. PASSED is a
+    check of our solver by our own second codes, by 40 digits or by a law; such a check never agrees
+    with anything.
     """
 
     FAILS = "FAILS"

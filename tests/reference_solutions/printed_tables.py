@@ -36,7 +36,7 @@ def _fig6():
 
     The two differ most just below beta, by 2 e beta.
     """
-    incidences = (3.05, 3.1, 3.15, 3.2, 3.25, 3.3, 3.35, 3.4, 3.45, 3.4999999)
+    incidences = (3.05, 3.1, 3.15, 3.2, 3.25, 3.3, 3.35, 3.4, 3.45, 3.4999)
     return table(["model", "e", INCIDENCE, VELOCITY], _rebound, [(x, 0.5) for x in incidences])
 
 

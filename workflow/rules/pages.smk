@@ -41,7 +41,7 @@ rule report:
             "sources": SOURCES,
             "overlays": OVERLAYS,
             "rows": rows_of(JUDGED),
-            "entries": ENTRIES,
+            "grades": GRADES,
         },
     script:
         "../scripts/write_report.py"

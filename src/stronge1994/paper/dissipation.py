@@ -41,18 +41,18 @@ def kinetic_energy(clockwise: float) -> Gaps:
 
 # Frictions and restitutions of Fig. 9.
 OF_FIG_9 = tuple(product((0.1, 0.5), (1.0, 0.5)))
-FRICTION_TAKES = "Fig. 9, Eqs 38 to 40: energy lost"
+FRICTION_TAKES = "energy friction takes, Eqs 38-40"
 
 
 @cache
 def without_strain_energy(_: float) -> tuple[str, str]:
     """What Eqs 38 to 40 leave out, and how far Fig. 9 is off for it, by tenths of a degree."""
-    theta, gaps = ANGLES[9::20], []
+    theta, gaps = np.radians(ANGLES[9::20]), []
     for mu, e in OF_FIG_9:
-        x = np.tan(np.radians(theta)) / mu
-        _, _, printed = as_printed.rebound(x, *contact.SPHERE, e)
+        x = np.tan(theta) / mu
+        printed = as_printed.rebound(x, *contact.SPHERE, e)[2]
         apart = np.abs(printed - lumped.rebound(x, *contact.SPHERE, e).dissipation)
-        gaps.append(np.nanmax(2 * (mu * np.cos(np.radians(theta))) ** 2 * apart))
+        gaps.append(float(np.nanmax(2 * (mu * np.cos(theta)) ** 2 * apart)))
     return "no strain energy", f"off by {max(gaps):.2g} m2 S^2/2"
 
 
@@ -386,7 +386,7 @@ def places_of_most(_: float) -> tuple[str, str]:
     verdict="wrong",
     grade="changes a result",
     cause="place-of-most-dissipation",
-    quantity="most energy lost, mu = 0.1, e = 1",
+    quantity="friction takes most, mu 0.1, e 1",
     values=places_of_most,
     explorer={"angle": 54.6, "friction": 0.1, "restitution": 1, "view": "energy"},
     correction=r"Friction dissipates most at $\tan(2 \theta) = -2/(\mu (1 + e) m_2/m_1)$. For $\mu "

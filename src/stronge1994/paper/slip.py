@@ -119,10 +119,19 @@ def rebound_after_stick(impact: Contact) -> Gaps:
 
 def limits_of_slip(_: float) -> tuple[str, str]:
     """Where slip throughout begins as printed, and by the regimes of the model; e is 1 and 0.5."""
-    pairs = [slip_throughout_limit((contact.SPHERE, e)) for e in (1.0, 0.5)]
-    printed = [equations.slip_throughout_limit(contact.MASS_RATIO, e) for e in (1.0, 0.5)]
-    own = [limit - float(off) for limit, (off, _) in zip(printed, pairs, strict=True)]
+    beta, restitutions = contact.MASS_RATIO, (1.0, 0.5)
+    printed = [equations.slip_throughout_limit(beta, e) for e in restitutions]
+    own = [regime_boundary(contact.SPHERE, e) for e in restitutions]
     return f"{printed[0]:.3g}, {printed[1]:.3g} mu v2(0)", f"{own[0]:.3g}, {own[1]:.3g} mu v2(0)"
+
+
+def regime_boundary(groups: tuple[float, float], e: float) -> float:
+    """Incidence from which the model slips throughout, by bisection of regimes."""
+
+    def sticks(x: float) -> bool:
+        return lumped.rebound(x, *groups, e).regime != Regime.SLIP_THROUGHOUT
+
+    return boundary(sticks, 0.0, 4 * groups[0])
 
 
 @entry(
@@ -136,7 +145,7 @@ def limits_of_slip(_: float) -> tuple[str, str]:
     verdict="wrong",
     grade="changes a result",
     cause="slip-limit",
-    quantity="slip throughout from, e = 1 and 0.5",
+    quantity="slip throughout from, e 1 and 0.5",
     values=limits_of_slip,
     explorer={"angle": 72.6, "friction": 0.5, "restitution": 1, "view": "velocity"},
     correction=r"Slip throughout begins at $m_2/m_1 + \mathrm{max}(0, e m_2/m_1 - \zeta^2/e)$, but "
@@ -174,11 +183,7 @@ def slip_throughout_limit(place: tuple[tuple[float, float], float]) -> tuple[Arr
     Corrected, by Eqs 17 to 20: $\beta + \mathrm{max}(0, e \beta - \zeta^2/e)$.
     """
     (beta, zeta2), e = place
-
-    def sticks(x: float) -> bool:
-        return lumped.rebound(x, beta, zeta2, e).regime != Regime.SLIP_THROUGHOUT
-
-    exact = boundary(sticks, 0.0, 4 * beta)
+    exact = regime_boundary((beta, zeta2), e)
     later = e * beta - zeta2 / e if e else 0.0
     return equations.slip_throughout_limit(beta, e) - exact, beta + max(0.0, later) - exact
 
