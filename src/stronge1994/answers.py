@@ -58,8 +58,8 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
     right, under = found[CONFIRMED] + found[ROUNDED], ledger_table.conditional(ledger)
     grave = changes(ledger)
     count = sum(len(change.entries) for change in grave)
-    apart = next(row for row in verdicts if row["comparison"] == STICKS_FIRST)
-    size = with_unit(float(f"{float(apart['max']):.2g}"), apart["unit"])
+    apart = [row for row in verdicts if row["comparison"] == STICKS_FIRST]
+    sizes = [with_unit(float(f"{float(row['max']):.2g}"), row["unit"]) for row in apart]
     return [
         Answer("Does the solver solve the paper's model?", [_of_solver(verdicts)]),
         Answer(
@@ -73,7 +73,7 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
         Answer("Are our curves the printed ones?", [_of_prints(verdicts)]),
         Answer(
             'Is the model "practically identical" with Maw\'s continuum?',
-            [f"No: up to {size} apart where the contact sticks first"],
+            [f"No: up to {size} apart where the contact sticks first" for size in sizes],
         ),
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(

@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from stronge1994 import verdict_table, words
+from stronge1994.names import is_of_paper
 from stronge1994.tables import Row, Table, with_unit
 from stronge1994.verdict_table import COLUMNS, Group, Verdict, Why
 
@@ -147,7 +148,10 @@ def _of_others(models: Table | None, first: Row) -> str:
     if first["verdict"] == Verdict.CANNOT_JUDGE and (worst == first["severity"]).all():
         return f"none of {len(worst) + 1} models agrees"
     counts = Counter(list(Verdict)[place] for place in sorted(worst))
-    return f"other models: {', '.join(f'{n} {verdict}' for verdict, n in counts.items())}"
+    said = ", ".join(
+        f"{verdict} {n}" if len(counts) > 1 else verdict for verdict, n in counts.items()
+    )
+    return f"{len(worst)} other model{'s' * (len(worst) > 1)}: {said}"
 
 
 def _against_facts(rows: Table) -> str:
@@ -184,14 +188,18 @@ def _rms(rows: Table, unit: str) -> str:
 
 
 def text(table: Iterable[FigureRow]) -> str:
-    """The table for a terminal of 80 columns, without figures that are compared with nothing."""
+    """The table for a terminal of 80 columns.
+
+    A figure beyond the paper that is compared with nothing is left out.
+    """
     lines = []
     for row in table:
         items = [*row.paper, *row.others]
-        if not (items or row.printed or row.awaited):
+        of_paper = is_of_paper(row.figure)
+        if not (of_paper or items):
             continue
         later = [f"points of {i.name}" for i in items if i.verdict == Verdict.NOT_COMPARED]
-        awaited = [PRINTED] if row.awaited and not row.printed else []
+        awaited = [PRINTED] if of_paper and not row.printed else []
         missing = ", ".join(dict.fromkeys([*awaited, *later]))
         head = f"{words.figure(row.figure)}  {row.shows}"
         head += f"; not compared: {missing}" if missing else ""
@@ -205,25 +213,13 @@ def text(table: Iterable[FigureRow]) -> str:
     return "\n".join(lines)
 
 
-def of_printed(rows: Iterable[Row]) -> str:
-    """How many printed curves were compared, of how many; empty if none was.
-
-    >>> of_printed([{"group": "printed figure", "verdict": "agrees", "curve": "lumped"}])
-    '1 of 1 compared'
-    """
-    of_curves = (row for row in rows if row["group"] == Group.PRINTED and row["curve"])
-    verdicts = [row["verdict"] for row in of_curves]
-    done = len(verdicts) - verdicts.count(Verdict.NOT_COMPARED)
-    return f"{done} of {len(verdicts)} compared" if done else ""
-
-
 def counted(rows: Iterable[Row]) -> str:
     """How many rows have each verdict, best first.
 
     >>> counted([{"verdict": "differs"}, {"verdict": "agrees"}])
-    '1 agrees, 1 differs'
+    'agrees 1, differs 1'
     """
     counts = Counter(row["verdict"] for row in rows)
     return ", ".join(
-        f"{counts[verdict]} {verdict}" for verdict in reversed(Verdict) if counts[verdict]
+        f"{verdict} {counts[verdict]}" for verdict in reversed(Verdict) if counts[verdict]
     )

@@ -197,7 +197,7 @@ class Comparison(Declared):
     def group(self) -> Group:
         """With what it compares.
 
-        OTHERS: points of nature, and what other codes compute and others state. PAPER: what the
+        OTHERS: points that others measured, and what other codes compute and others state. PAPER: what the
         paper states, and a difference that is an entry of the ledger. PRINTED: its printed curves.
         All else, our second codes and laws, only checks our SOLVER.
         """

@@ -28,7 +28,7 @@ from stronge1994.reference_data.formats import (
 )
 from stronge1994.tables import Table, with_unit
 
-# Kinds of series that hold points of nature: published ones, or measured by their owner.
+# Kinds of series that hold measured points, or published ones.
 PUBLISHED = ("measured", "digitised", "stated", "awaited")
 # What an entry has besides, by its kind.
 NEEDED = {
@@ -251,7 +251,7 @@ class Series(Declared):
 
     @property
     def is_published(self) -> bool:
-        """Whether it holds points of nature, see `PUBLISHED`."""
+        """Whether its points were measured or published, see `PUBLISHED`."""
         return self.kind in PUBLISHED
 
     def points(self) -> Table:
