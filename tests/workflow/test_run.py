@@ -4,6 +4,7 @@ Most is asked of Snakemake's `--summary`, which runs nothing: it says which file
 """
 
 import os
+import re
 import signal
 import sys
 import time
@@ -140,6 +141,26 @@ def test_touching_everything_runs_nothing_and_what_is_missing_is_made_again(fini
         path.unlink()
     again = {"judge_fig3", "judge_fig4", "ledger", "draw_fig5", "draw_fig7", "explorer"}
     assert finished.jobs()[1] == OF_FIG2 | PAGES | GATE | again
+
+
+def test_pages_that_are_made_again_have_the_same_bytes_but_for_the_file_with_the_date(
+    first_run, finished
+):
+    pages = [f"figures/{name}.html" for name in ("report", "explorer", "your_copy")]
+    for page in pages:
+        (finished / page).unlink()
+    assert finished.run(*pages).returncode == 0
+    files = [path for part in ("figures", "results") for path in (finished / part).rglob("*.*")]
+    names = [path.relative_to(finished.folder) for path in files if path.parent.name != "logs"]
+    different = {
+        str(name) for name in names if content(finished / name) != content(first_run[0] / name)
+    }
+    assert different <= {"figures/run.txt"} < set(map(str, names))
+
+
+def content(path):
+    """What a file holds, but for the commit, which a copy of this checkout does not know."""
+    return re.sub(rb">Commit [^;]*;", b"", path.read_bytes())
 
 
 def test_a_job_that_raises_is_named_at_the_end_and_the_others_are_done(finished):

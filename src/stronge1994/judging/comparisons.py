@@ -197,9 +197,9 @@ class Comparison(Declared):
     def group(self) -> Group:
         """With what it compares.
 
-        OTHERS: points that others measured, and what other codes compute and others state. PAPER: what the
-        paper states, and a difference that is an entry of the ledger. PRINTED: its printed curves.
-        All else, our second codes and laws, only checks our SOLVER.
+        OTHERS: points that others measured, and what other codes compute and others state. PAPER:
+        what the paper states, and a difference that is an entry of the ledger. PRINTED: its printed
+        curves. All else, our second codes and laws, only checks our SOLVER.
         """
         known, reference = self.differs, self.reference
         if reference is not None and reference.name.split("/")[0] == STRONGE:

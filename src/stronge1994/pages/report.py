@@ -237,7 +237,6 @@ def write(
         )
         for name, picture in pictures.items()
     }
-    run = versions.of_run()
     known = accepted.read(given.accepted)
     values = {
         "verdicts": shown,
@@ -250,13 +249,14 @@ def write(
         "cases": which_model.cases(answers, trade),
         "significance": config["significance"],
         "doubt": DOUBT * config["significance"],
-        "run": run,
+        "commit": versions.commit("."),
         "faults": gate.faults(verdicts, ledger, rows, grades, known),
     }
     pages = {
         made.report: page(values),
-        made.sources: sources_page.page(sources, config, run),
+        made.sources: sources_page.page(sources, config),
         made.ledger: ledger_page.page(ledger),
+        made.run: versions.of_run(),
     }
     for path, text in pages.items():
         Path(path).write_text(text, encoding="utf-8")
