@@ -60,7 +60,7 @@ rule accept:
     """
     input:
         code=["workflow/scripts/accept.py", *JUDGING],
-        verdicts=rules.verdicts.output.table,
+        verdicts=[rules.verdicts.output.table],
         ledger=rules.check_ledger.output[0],
     log:
         "results/logs/accept.log",
@@ -74,7 +74,7 @@ rule gate:
     """Pass, or fail and say which rows are not as accepted. It waits for all that a run makes."""
     input:
         code=["workflow/scripts/gate.py", *JUDGING],
-        verdicts=rules.verdicts.output.table,
+        verdicts=[rules.verdicts.output.table],
         ledger=rules.check_ledger.output[0],
         accepted=ACCEPTED,
         made=EVERYTHING,
