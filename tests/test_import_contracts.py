@@ -66,9 +66,10 @@ REPLICATION = {
     "versions": "planarimpact",
     "logs": "",
     "accepted": "tables verdict_table ledger_table",
-    "gate": "accepted tables figure_table verdict_table ledger_table",
+    "answers": "tables words figure_table verdict_table ledger_table",
+    "gate": "accepted answers tables figure_table verdict_table ledger_table",
     "pages": "common bodies export tables reference_data figures studies formulas goodness judging"
-    " paper ledger_table settings accepted gate versions names words figure_table verdict_table"
+    " paper ledger_table settings accepted answers gate versions names words figure_table verdict_table"
     " jinja2 pandas matplotlib",
 }
 # Figures and studies have one folder each, and in it files that solve and files that draw, or that

@@ -69,11 +69,14 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
                 f"{found[WRONG]} are not, {found[NOT_TESTABLE]} cannot be tested"
             ],
         ),
-        Answer("Which errors change a result?", [f"{count}:"], grave),
+        Answer("Which errors change a result?", [f"{count} statements:"], grave),
         Answer("Are our curves the printed ones?", [_of_prints(verdicts)]),
         Answer(
             'Is the model "practically identical" with Maw\'s continuum?',
-            [f"No: up to {size} apart where the contact sticks first" for size in sizes],
+            [
+                f"No: velocities differ by up to {size} where the contact sticks first"
+                for size in sizes
+            ],
         ),
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(
@@ -86,7 +89,7 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
 def _of_solver(verdicts: Sequence[Row]) -> str:
     own = [row for row in verdicts if row["group"] == Group.SOLVER]
     exact = sum("_40_digits/" in row["reference"] for row in own)
-    return f"Yes: {len(own)} checks pass, {exact} of 40 digits, by independent codes and laws"
+    return f"Yes: {len(own)} checks pass, {exact} to 40 digits, by independent codes and laws"
 
 
 def _of_prints(verdicts: Sequence[Row]) -> str:
