@@ -131,7 +131,7 @@ def text(answers: Sequence[Answer]) -> str:
             lines += textwrap.wrap(told, WIDTH, initial_indent="  ", subsequent_indent="    ")
         if answer.table:
             rows = [(row.quantity, row.printed, row.by_model) for row in answer.table]
-            rows.insert(0, (lines.pop().strip(), "printed", "by his model"))
+            rows.insert(0, (lines.pop().strip(), "printed", "by the model"))
             first, second, _ = (max(map(len, column)) for column in zip(*rows, strict=True))
             lines += [f"  {a:<{first}}  {b:<{second}}  {c}" for a, b, c in rows]
     return "\n".join(lines)

@@ -54,7 +54,7 @@ def test_errors_that_change_the_same_result_are_one_row_and_are_all_counted():
     assert right == ["1 of 5 are (1 only under a condition), 3 are not, 1 cannot be tested"]
     lines = answers.text([grave]).splitlines()
     assert lines[1:] == [
-        "  3 statements:  printed  by his model",
+        "  3 statements:  printed  by the model",
         "  energy lost    none     off by 1 J",
         "  angle          35 deg   27.8 deg",
     ]

@@ -75,7 +75,7 @@ def test_the_main_readme_is_short_and_answers_as_the_run_does(first_run):
     asked = [("question", "answer"), ("---", "---")]
     asked += [(one.question, ". ".join(one.told) + " see below" * bool(one.table)) for one in found]
     (changes,) = (one.table for one in found if one.table)
-    changed = [("result", "as printed", "by his model"), ("---",) * 3]
+    changed = [("result", "as printed", "by the model"), ("---",) * 3]
     changed += [(row.quantity, row.printed, row.by_model) for row in changes]
     text = MAIN
     for name, rows in (("answers", asked), ("changes", changed)):
