@@ -74,14 +74,14 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
         Answer(
             'Is the model "practically identical" with Maw\'s continuum?',
             [
-                f"No: velocities differ by up to {size} where the contact sticks first"
+                f"Velocities differ by up to {size}, most where the contact sticks first"
                 for size in sizes
             ],
         ),
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(
             "What makes a run fail?",
-            ["A curve outside its tolerance, or a result that is not the accepted one"],
+            ["A curve outside its tolerance, or a result other than what was accepted"],
         ),
     ]
 
@@ -89,7 +89,7 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
 def _of_solver(verdicts: Sequence[Row]) -> str:
     own = [row for row in verdicts if row["group"] == Group.SOLVER]
     exact = sum("_40_digits/" in row["reference"] for row in own)
-    return f"Yes: {len(own)} checks pass, {exact} to 40 digits, by independent codes and laws"
+    return f"Yes: {len(own)} checks pass, by our second codes or laws; {exact} have 40 digits"
 
 
 def _of_prints(verdicts: Sequence[Row]) -> str:

@@ -146,7 +146,7 @@ def _of_others(models: Table | None, first: Row) -> str:
     if worst.empty:
         return ""
     if first["verdict"] == Verdict.CANNOT_JUDGE and (worst == first["severity"]).all():
-        return f"none of {len(worst) + 1} models agrees"
+        return f"none of {len(worst) + 1} models agrees within the error of reading"
     counts = Counter(list(Verdict)[place] for place in sorted(worst))
     said = ", ".join(
         f"{verdict} {n}" if len(counts) > 1 else verdict for verdict, n in counts.items()

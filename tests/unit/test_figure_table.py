@@ -58,7 +58,7 @@ Fig. 6  rebound; not compared: printed curve, points of Johnson 1983
                   unknown; 1 other model: differs
  cannot tell      Cross 2014: spin, 4 points, rms 0.02
  cannot be judged Cross 2014: e t, 4 points, rms 0.02 mu v2(0); not published:
-                  scatter; none of 3 models agrees
+                  scatter; none of 3 models agrees within the error of reading
  agrees           Maw 1976: friction reverses
 Fig. 7  forces; not compared: printed curve
  FAILS            paper: like the continuum, 0.03 mu v2(0)

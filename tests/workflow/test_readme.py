@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from planarimpact.__main__ import main
-from stronge1994 import answers, reference_data, tables
+from stronge1994 import answers, reference_data, tables, words
 from stronge1994.settings import figures
 
 ROOT = Path(__file__).parents[2]
@@ -75,8 +75,8 @@ def test_the_main_readme_is_short_and_answers_as_the_run_does(first_run):
     asked = [("question", "answer"), ("---", "---")]
     asked += [(one.question, ". ".join(one.told) + " see below" * bool(one.table)) for one in found]
     (changes,) = (one.table for one in found if one.table)
-    changed = [("result", "as printed", "by the model"), ("---",) * 3]
-    changed += [(row.quantity, row.printed, row.by_model) for row in changes]
+    changed = [("result", "as printed", "by the model", "entries of the ledger"), ("---",) * 4]
+    changed += [(*row[:3], ", ".join(map(words.entry, row.entries))) for row in changes]
     text = MAIN
     for name, rows in (("answers", asked), ("changes", changed)):
         start, end = re.search(f"<!-- {name} -->\n(.*?)<!-- end -->", text, flags=re.S).span(1)
