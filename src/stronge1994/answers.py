@@ -13,9 +13,8 @@ from stronge1994.verdict_table import WIDTH, Group, Verdict
 # What was measured, where the name of a source says too little.
 MEASURED = {
     "osakue_rogers2001": "two inequalities",
-    "cornell1999": "pairs of materials, e < 1",
-    "lewis_rogers1988": "angle of largest friction",
-    "cross2014": "rubber sphere",
+    "cornell1999": "materials, e < 1",
+    "lewis_rogers1988": "peak angle",
 }
 COMPUTED = ("maw1976", "chung_ooi2011")  # by others, and so no measurements
 ASKED = (Verdict.AGREES, Verdict.DIFFERS, Verdict.CANNOT_TELL, Verdict.CANNOT_JUDGE)
@@ -81,7 +80,7 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(
             "What makes a run fail?",
-            ["A curve outside its tolerance, or a result other than what was accepted"],
+            ["A curve outside its tolerance, or a result that nobody has accepted"],
         ),
     ]
 
@@ -89,14 +88,14 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
 def _of_solver(verdicts: Sequence[Row]) -> str:
     own = [row for row in verdicts if row["group"] == Group.SOLVER]
     exact = sum("_40_digits/" in row["reference"] for row in own)
-    return f"Yes: {len(own)} checks pass, by our second codes or laws; {exact} have 40 digits"
+    return f"Yes: {len(own)} checks pass, by our second codes ({exact} with 40 digits) or laws"
 
 
 def _of_prints(verdicts: Sequence[Row]) -> str:
     curves = [row for row in verdicts if row["group"] == Group.PRINTED and row["curve"]]
     read = [row for row in curves if row["verdict"] != Verdict.NOT_COMPARED]
     if not read:
-        return f"Not known: we have its text only. With your copy: {COPY}"
+        return f"Not known: we have its text only. If you have a copy: {COPY}"
     return f"{len(read)} of {len(curves)} were compared: {figure_table.counted(read)}"
 
 

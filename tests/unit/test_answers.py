@@ -28,7 +28,7 @@ def test_measurements_are_told_by_their_verdicts_on_the_paper_s_model():
     ]
     assert told(verdicts)["Do measurements agree with the model?"].told == [
         "Agrees: Kharaz 2001 in part",
-        "Differs: Cornell 1999 (pairs of materials, e < 1)",
+        "Differs: Cornell 1999 (materials, e < 1)",
         "Cannot tell: Mine 2026",
         "Cannot be judged, no scatter published: Kharaz 2001 in part",
     ]

@@ -58,7 +58,7 @@ def test_the_first_words_say_what_was_found_and_how_it_went(pages, rows_of):
     """Pictures of all figures of the paper follow, and each error that changes a result."""
     head = pages("report").split('<h2 id="model">')[0]
     first = Page(head).text
-    assert first.index("entries") < first.index("PASSED")
+    assert first.index("PASSED") < first.index("Does the solver")
     assert "FAILED" not in pages("report")
     sheet = head.partition('<ul class="sheet">')[2].split("</ul>")[0]
     assert re.findall('href="#(fig.)"', sheet) == [f"fig{number}" for number in range(2, 10)]
@@ -84,7 +84,10 @@ def test_the_contact_sheet_names_the_largest_difference_of_a_figure(pages):
         name: Page(f'<a "{rest}').text
         for name, rest in re.findall(r'<a href="#(fig\d)"(.*?)</li>', sheet, flags=re.S)
     }
-    assert "differs not compared agrees largest difference: slip throughout" in told["fig5"]
+    assert (
+        "differs cannot tell cannot be judged not compared agrees largest difference: slip throughout"
+        in told["fig5"]
+    )
     assert "differs not compared largest difference: Eq. 25" in told["fig6"]
     assert told["fig2"].endswith("not compared")
 
@@ -289,7 +292,7 @@ def test_a_failed_run_looks_like_one_and_tells_all_that_was_found():
     assert "PASSED" not in text and "What changes a result" not in text
     first, rest = page[page.index('<h3 id="fig6">') :].split("</table>")[:2]
     assert '<tr id="fig6-far" class="FAILS"' in first and flat(first).endswith(flat(TOLD))
-    told = "4 more comparisons: 2 agrees, 1 not compared; solver checked: 1 passed"
+    told = "4 more comparisons: agrees 2, not compared 1; solver checked: passed 1"
     assert told in Page(rest).text
     assert flat(rest).endswith(flat(REST))
     assert all(flat(row) in flat(page) for row in ROWS.split("|"))

@@ -39,7 +39,7 @@ def kinetic_energy(clockwise: float) -> Gaps:
     yield mass / 2 * printed / exact - 1
 
 
-FRICTION_TAKES = "energy to friction, Eqs 38-40, e = 1"
+FRICTION_TAKES = "energy to friction (Eqs 38-40, e = 1)"
 
 
 @cache
@@ -54,7 +54,7 @@ def without_strain_energy(_: float) -> tuple[str, str]:
         printed = as_printed.rebound(x, *contact.SPHERE, 1.0)[2]
         apart = np.abs(printed - lumped.rebound(x, *contact.SPHERE, 1.0).dissipation)
         gaps.append(float(np.nanmax(2 * (mu * np.cos(theta)) ** 2 * apart)))
-    return f"off by {max(gaps):.2g} m2 S^2/2", "with strain energy"
+    return f"{max(gaps):.2g} m2 S^2/2 off", "with strain energy"
 
 
 def _normal(impact: Contact) -> float:
@@ -391,7 +391,7 @@ def places_of_most(_: float) -> tuple[str, str]:
     verdict="wrong",
     grade="changes a result",
     cause="place-of-most-dissipation",
-    quantity="friction takes most, mu = 0.1, e = 1",
+    quantity="friction takes most (mu = 0.1, e = 1)",
     values=places_of_most,
     explorer={"angle": 54.6, "friction": 0.1, "restitution": 1, "view": "energy"},
     correction=r"Friction dissipates most at $\tan(2 \theta) = -2/(\mu (1 + e) m_2/m_1)$. For $\mu "

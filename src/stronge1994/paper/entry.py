@@ -254,8 +254,6 @@ def _faults(made: Entry, criterion: Mapping[str, Any]) -> Iterable[str]:
     needed = {NOT_TESTABLE: {"why"}, WRONG: of_wrong}.get(made.verdict, set())
     if made.verdict == WRONG:
         needed = needed | (changed or {"reading"})
-    if bool(changed) != bool(made.values):
-        yield f"values: an entry that {CHANGES!r} has them, and no other"
     if made.name in LEDGER:
         yield "the name is taken"
     if not re.fullmatch(r"[a-z][a-z0-9.-]*", made.name):
@@ -276,6 +274,8 @@ def _faults(made: Entry, criterion: Mapping[str, Any]) -> Iterable[str]:
         if key not in {*of_wrong, "quantity", "only_if", "why"}:
             yield f"{key}: `entry` takes no such argument"
         yield f"{key}: allowed beside {made.verdict!r} are {', '.join(sorted(allowed))}"
+    if bool(changed) != bool(made.values):
+        yield f"values: allowed and needed beside the grade {CHANGES!r}"
     if made.verdict == NOT_TESTABLE and criterion:
         yield f"{next(iter(criterion))}: an entry that is not testable has no check"
     if set(criterion) not in (set(), {"value", "rounding"}) and not (

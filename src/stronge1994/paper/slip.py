@@ -145,7 +145,7 @@ def regime_boundary(groups: tuple[float, float], e: float) -> float:
     verdict="wrong",
     grade="changes a result",
     cause="slip-limit",
-    quantity="slips throughout from, e = 1 and 0.5",
+    quantity="slip throughout from (e = 1 and 0.5)",
     values=limits_of_slip,
     explorer={"angle": 72.6, "friction": 0.5, "restitution": 1, "view": "velocity"},
     correction=r"Slip throughout begins at $m_2/m_1 + \mathrm{max}(0, e m_2/m_1 - \zeta^2/e)$, but "
@@ -567,7 +567,7 @@ def deflection_when_slip_reverses() -> float:
     grade="changes a result",
     cause="last-slip-direction",
     quantity="last slip runs against the first",
-    values=lambda e: ("always", f"not always, e < {e:.2g}"),
+    values=lambda e: ("always", f"not for e < {e:.2g}"),
     explorer={"angle": 58, "friction": 0.5, "restitution": 0.5, "view": "velocity"},
     correction="The sentence is right at all intermediate incidences only for $e > "
     r"\Omega/\omega$, which is 0.588 for the paper's sphere. At $e = 0.5$ it is right only for "
