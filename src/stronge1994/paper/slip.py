@@ -566,8 +566,8 @@ def deflection_when_slip_reverses() -> float:
     verdict="wrong",
     grade="changes a result",
     cause="last-slip-direction",
-    quantity="last slip runs against the first",
-    values=lambda e: ("always", f"not for e < {e:.2g}"),
+    quantity="last slip always against the first",
+    values=lambda e: ("yes", f"not if e < {e:.2g}"),
     explorer={"angle": 58, "friction": 0.5, "restitution": 0.5, "view": "velocity"},
     correction="The sentence is right at all intermediate incidences only for $e > "
     r"\Omega/\omega$, which is 0.588 for the paper's sphere. At $e = 0.5$ it is right only for "
