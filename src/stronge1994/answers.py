@@ -64,7 +64,7 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
         Answer(
             "Are the paper's statements right, by its own model?",
             [
-                f"{right} of {len(ledger)} are ({under} only under a condition), "
+                f"{right} of {len(ledger)} are ({under} if a condition is added), "
                 f"{found[WRONG]} are not, {found[NOT_TESTABLE]} cannot be tested"
             ],
         ),
@@ -80,13 +80,13 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(
             "What makes a run fail?",
-            ["A curve outside its tolerance, or a result that nobody has accepted"],
+            ["A check of the solver outside its tolerance, or a result nobody has accepted"],
         ),
     ]
 
 
 def _of_solver(verdicts: Sequence[Row]) -> str:
-    own = [row for row in verdicts if row["group"] == Group.SOLVER]
+    own = [row for row in verdicts if row["verdict"] == Verdict.PASSED]
     exact = sum("_40_digits/" in row["reference"] for row in own)
     return f"Yes: {len(own)} checks pass, by our second codes ({exact} with 40 digits) or laws"
 
@@ -95,7 +95,7 @@ def _of_prints(verdicts: Sequence[Row]) -> str:
     curves = [row for row in verdicts if row["group"] == Group.PRINTED and row["curve"]]
     read = [row for row in curves if row["verdict"] != Verdict.NOT_COMPARED]
     if not read:
-        return f"Not known: we have its text only. If you have a copy: {COPY}"
+        return f"Not known: our copy has no figures. With a copy: {COPY}"
     return f"{len(read)} of {len(curves)} were compared: {figure_table.counted(read)}"
 
 

@@ -203,7 +203,7 @@ def text(table: Iterable[FigureRow]) -> str:
         missing = ", ".join(dict.fromkeys([*awaited, *later]))
         head = f"{words.figure(row.figure)}  {row.shows}"
         head += f"; not compared: {missing}" if missing else ""
-        lines += textwrap.wrap(head, verdict_table.WIDTH)
+        lines += textwrap.wrap(head, verdict_table.WIDTH, subsequent_indent=" " * 8)
         for item in row.printed:
             lines += verdict_table.lines(item.verdict, PRINTED, (item.text, item.reason))
         for item in items:

@@ -51,7 +51,7 @@ def test_errors_that_change_the_same_result_are_one_row_and_are_all_counted():
         ("angle", ["angle"]),
     ]
     right = found["Are the paper's statements right, by its own model?"].told
-    assert right == ["1 of 5 are (1 only under a condition), 3 are not, 1 cannot be tested"]
+    assert right == ["1 of 5 are (1 if a condition is added), 3 are not, 1 cannot be tested"]
     lines = answers.text([grave]).splitlines()
     assert lines[1:] == [
         "  3 statements:  printed  by the model",
