@@ -14,7 +14,7 @@ SRC = Path(__file__).parents[1] / "src"
 # Codes that are compared with the solver, and so share nothing with it.
 APART = "tests.reference_solutions"
 
-# The solver. Models of contact do not know each other; nothing here knows the reproduction.
+# The solver. Models of contact do not know each other; nothing here knows the replication.
 SOLVER = {
     "common": "",
     "normal_impact": "common",
@@ -36,8 +36,8 @@ SOLVER = {
     ),
     "__main__": ("planarimpact common bodies lumped continuum models export fit collision scene"),
 }
-# The reproduction. Only curves and checks of the paper solve; drawings get curves, pages tables.
-REPRODUCTION = {
+# The replication. Only curves and checks of the paper solve; drawings get curves, pages tables.
+REPLICATION = {
     "__init__": "",
     "names": "",
     "words": "names",
@@ -66,17 +66,18 @@ REPRODUCTION = {
     "versions": "planarimpact",
     "logs": "",
     "accepted": "tables verdict_table ledger_table",
-    "gate": "accepted tables figure_table verdict_table ledger_table",
+    "answers": "tables words figure_table verdict_table ledger_table",
+    "gate": "accepted answers tables figure_table verdict_table ledger_table",
     "pages": "common bodies export tables reference_data figures studies formulas goodness judging"
-    " paper ledger_table settings accepted gate versions names words figure_table verdict_table"
-    " jinja2 pandas matplotlib",
+    " paper ledger_table settings accepted answers gate versions names words figure_table"
+    " verdict_table jinja2 pandas matplotlib",
 }
 # Figures and studies have one folder each, and in it files that solve and files that draw, or that
 # judge what is drawn.
 DRAWING = ("drawing", "draw_", "trials")
-CONTRACTS = {"planarimpact": SOLVER, "stronge1994": REPRODUCTION}
+CONTRACTS = {"planarimpact": SOLVER, "stronge1994": REPLICATION}
 # Of a package of the solver others import its `__init__` or one of these. In `common` and in the
-# reproduction every module is public.
+# replication every module is public.
 PUBLIC_MODULES = {
     "phases.closed",  # contacts that the loop follows, and their history
     "phases.off_centre",

@@ -1,26 +1,18 @@
 """Decide whether a run passes by its tables, and tell what it found."""
 
 import textwrap
-from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 
-from stronge1994 import accepted, figure_table, ledger_table, verdict_table
+from stronge1994 import accepted, answers, figure_table, ledger_table, verdict_table
 from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
 
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 PASSED = """\
-PASSED: every result is as accepted, known differences included; {checks} checks.
-Printed curves: {printed}.
-This does not mean that the paper is right. "wrong" says: not by its own model.
-A run FAILS if a curve of ours leaves the tolerance of its reference in data/,
-or if a result is not the one that was accepted: data/accepted/verdicts.csv.
-Look:    figures/report.html in a browser: the table above, with reasons
-Play:    figures/explorer.html
-Tables:  results/verdicts.csv, results/ledger.csv
-Change:  workflow/config.yaml, and run again. References for the old value are
-         not compared. To draw without judging: snakemake --cores 2 figures"""
-NO_PRINT = "not compared (with your copy: figures/your_copy.html)"
+PASSED: every result is as accepted, known differences included.
+This does not mean that the paper is right.
+Look: figures/report.html in a browser. By figure: results/verdicts.txt"""
+BY_FIGURE = "By figure: results/verdicts.txt"
 UNMADE = (
     "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "
     "({}). To draw without judging, with your --config: snakemake --cores 2 figures"
@@ -78,22 +70,31 @@ def unmade(verdicts: Sequence[Row]) -> list[Row]:
 
 
 def summary(
-    verdicts: Sequence[Row], ledger: Sequence[Row], wrong: Sequence[str], shows: Mapping[str, str]
+    verdicts: Sequence[Row],
+    ledger: Sequence[Row],
+    wrong: Sequence[str],
+    shows: Mapping[str, str],
+    grades: Mapping[str, str],
 ) -> str:
-    """What a run says at its end: its rows in short, and whether it has passed.
+    """What a run says at its end: what it has found, and whether it has passed.
 
-    `wrong` are its `faults`; `shows` says what each figure of the paper shows. A run without a
-    ledger, or with it alone, is one of a part, of Fig. 6 for example.
+    `wrong` are its `faults`; `shows` says what each figure shows, `grades` are those of the
+    ledger's entries. A run without a ledger, or with it alone, is one of a part, of Fig. 6 for
+    example.
     """
     figures, others = {row["figure"] for row in verdicts}, unmade(verdicts)
-    parts = []
-    if verdicts and (ledger or len(figures) > 1):
+    whole, parts = verdicts and ledger, []
+    if whole and not wrong and not others:
+        return "\n".join(["", answers.text(answers.of_run(verdicts, ledger)), PASSED])
+    if whole:
+        parts = [BY_FIGURE]
+    elif len(figures) > 1:
         shown = {name: words for name, words in shows.items() if name in figures}
-        parts = [figure_table.text(figure_table.of_run(verdicts, shown))]
-        parts += filter(None, [figure_table.beyond(verdicts), figure_table.of_solver(verdicts)])
+        parts = [figure_table.text(figure_table.of_run(verdicts, shown, grades))]
     elif verdicts:
         parts = [verdict_table.text(verdicts), "All columns: results/verdicts/"]
-    parts += ["", ledger_table.summary(ledger)] if ledger else []
+    else:
+        parts = [ledger_table.summary(ledger)] if ledger else []
     if others:
         settings = "; ".join(list(dict.fromkeys(row["note"] for row in others))[:2])
         parts += [_filled(UNMADE.format(len(others), settings))]
@@ -103,11 +104,6 @@ def summary(
         more = len(wrong) - MOST_FAULTS
         parts += [f"  and {more} more: results/verdicts/, results/ledger.csv"] if more > 0 else []
         parts += [] if accepted.refused(verdicts, ledger) else [accepted.ACCEPT]
-    elif ledger and verdicts and not others:
-        found = Counter(row["verdict"] for row in verdicts)
-        checks = len(verdicts) - found[Verdict.NOT_COMPARED] + len(ledger)
-        printed = figure_table.of_printed(verdicts) or NO_PRINT
-        parts += [PASSED.format(checks=checks, printed=printed)]
     elif not others:
         parts += [
             "Every result is as accepted." if verdicts or ledger else "There is nothing to compare."

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from stronge1994.tables import Row
 
 VERDICTS = ("confirmed", "confirmed within rounding", "wrong", "not testable")
+CONFIRMED, ROUNDED, WRONG, NOT_TESTABLE = VERDICTS
 # Grades of wrong entries, the gravest first, each with a text to stand after its number.
 GRADES = {
     "changes a result": "change a result",
@@ -16,7 +17,7 @@ GRADES = {
 COLUMNS = [
     "kind", "entry", "holds", "verdict", "only_if", "grade", "cause", "where", "says", "test",
     "found", "confirms", "corrected", "problem", "reading", "range", "correction",
-    "derivation", "because", "why", "code",
+    "derivation", "because", "why", "code", "quantity", "printed", "by model",
 ]  # fmt: skip
 
 

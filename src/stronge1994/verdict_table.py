@@ -12,7 +12,7 @@ WIDTH = 80  # of a terminal
 COLUMNS = [
     "figure", "comparison", "group", "verdict", "why", "points", "size", "rms", "max", "unit",
     "chi^2", "degrees of freedom", "degrees of sigma", "p", "would fail", "rms [sigma]",
-    "max [sigma]", "found", "stated", "column", "entry", "paper", "reference", "model",
+    "max [sigma]", "found", "stated", "column", "entry", "reference", "model",
     "curve", "says", "allowed", "note", "reason",
 ]  # fmt: skip
 
@@ -23,13 +23,16 @@ class Verdict(StrEnum):
     DIFFERS is a difference from the paper or from others, and `Why` says what is known of it. FAILS
     is a check of our solver that has left its tolerance, or what cannot be compared. CANNOT_TELL is
     no evidence: published points would also agree with a curve that is a tenth too large, or their
-    p is between agreement and difference, see `judging.verdicts`. PASSED is a check of our solver
-    by our own second codes, by 40 digits or by a law; such a check never agrees with anything.
+    p is between agreement and difference, see `judging.verdicts`. CANNOT_JUDGE stands where an
+    error of the points is not published: the distance is a number without a verdict. PASSED is a
+    check of our solver by our own second codes, by 40 digits or by a law; such a check never agrees
+    with anything.
     """
 
     FAILS = "FAILS"
     DIFFERS = "differs"
     CANNOT_TELL = "cannot tell"
+    CANNOT_JUDGE = "cannot be judged"
     NOT_COMPARED = "not compared"
     AGREES = "agrees"
     PASSED = "passed"
@@ -39,7 +42,6 @@ class Why(StrEnum):
     """What is known of a difference, or why there is no comparison."""
 
     UNKNOWN = "cause unknown"
-    UNPUBLISHED = "scatter not published"
     KNOWN = "cause known"
     AWAITED = "points awaited"
     SETTINGS = "other settings"
@@ -135,7 +137,8 @@ def lines(verdict: str, name: str, parts: Iterable[str]) -> list[str]:
     """A verdict, and of whom or what it says what, in lines for a terminal of 80 columns.
 
     >>> lines("agrees", "Maw 1976", ["4 points", ""])
-    [' agrees       Maw 1976: 4 points']
+    [' agrees           Maw 1976: 4 points']
     """
-    told = f" {verdict:<12} {name}: {'; '.join(part for part in parts if part)}"
-    return textwrap.wrap(told, WIDTH, subsequent_indent=" " * 14, break_on_hyphens=False)
+    width = max(map(len, Verdict))
+    told = f" {verdict:<{width}} {name}: {'; '.join(part for part in parts if part)}"
+    return textwrap.wrap(told, WIDTH, subsequent_indent=" " * (width + 2), break_on_hyphens=False)

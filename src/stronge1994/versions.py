@@ -6,7 +6,6 @@ import platform
 import subprocess
 from importlib import metadata
 from pathlib import Path
-from typing import Any
 
 import planarimpact
 
@@ -20,15 +19,15 @@ def installed() -> dict[str, str]:
     return own | {name: metadata.version(name) for name in PACKAGES}
 
 
-def of_run() -> dict[str, Any]:
-    """Facts about a run, by name."""
-    return {
-        "versions": installed(),
-        # Without the name of the machine.
-        "system": f"{platform.platform()}, {os.cpu_count()} processors",
+def of_run() -> str:
+    """When and with what a run was made, a fact in each line: the only text that has a date."""
+    facts = {
         "date": f"{datetime.datetime.now(datetime.UTC):%d %B %Y, %H:%M} UTC",
         "commit": commit("."),
+        # Without the name of the machine.
+        "computer": f"{platform.platform()}, {os.cpu_count()} processors",
     }
+    return "".join(f"{name}: {value}\n" for name, value in (facts | installed()).items())
 
 
 def source() -> str:

@@ -304,7 +304,7 @@ def test_a_row_has_what_was_measured(tmp_path):
     }
     landmark = {"kind": "value", "x": "x [s]", "y": "y [N]", "at": 1}
     value = {"metric": "landmark", "landmark": landmark}
-    known = {"differs": {"why": "cause known", "entry": "eq-1", "paper": "wrong"}}
+    known = {"differs": {"why": "cause known", "entry": "eq-1"}}
     fact = {"reference": "they/fact"}
     points = {"metric": "distance", "reference": "they/points", "allowance": {"x": 0.0, "y": 0.4}}
     entries = {
@@ -328,7 +328,7 @@ def test_a_row_has_what_was_measured(tmp_path):
     assert [",".join(own) for own in cells] == CELLS.split("\n")[1:-1]
     assert {row["comparison"]: row["note"] for row in rows if row["note"]} == NOTES
     by_name = {row["comparison"]: row for row in rows}
-    assert [name for name, row in by_name.items() if row["paper"]] == ["fact"]  # as it differs
+    assert [name for name, row in by_name.items() if row["entry"]] == ["fact"]  # as it differs
     assert {name: by_name[name]["allowed"] for name in ALLOWED} == ALLOWED
     measured = "rms 1.41, max 2 N (rms 2.83 sigma); 3 points"
     assert verdict_table.measured(by_name["points"]) == measured

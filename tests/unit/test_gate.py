@@ -54,7 +54,7 @@ def test_the_ledger_alone_is_judged_by_its_own_rows():
     assert told == ["accepted, but no longer compared: eq-26"]
     lapsed = ENTRY | {"holds": "no", "problem": "oh"}
     assert gate.faults([], [lapsed], [], ["eq-25"], known) == ["no longer holds: eq-25: oh"]
-    said = gate.summary([], [ENTRY], [], {})
+    said = gate.summary([], [ENTRY], [], {}, {})
     assert "1 equations and sentences" in said and "Every result is as accepted." in said
     assert "PASSED" not in said and "nothing to compare" not in said
 
@@ -63,18 +63,15 @@ def told(wrong=(), ledger=(ENTRY,), figures=("fig6", "fig7"), **cells):
     """What is said of a run of ten rows, of the ledger or not."""
     rows = [VERDICT | cells | {"comparison": f"row-{i}"} for i in range(10)]
     rows = [row | {"figure": figures[i % len(figures)]} for i, row in enumerate(rows)]
-    return gate.summary(rows, ledger, wrong, {"fig6": "rebound"})
+    return gate.summary(rows, ledger, wrong, {"fig6": "rebound"}, {})
 
 
 def test_a_passed_run_says_where_to_look_and_what_next():
     said = told()
-    assert (
-        "\n agrees       A: b, 25 points, rms 0.1 N\n" in said
-        and "sentences of the paper: 1 wrong; 0 no" in said
-    )
-    assert "PASSED: every result is as accepted, known differences included; 11 checks." in said
-    assert "\nPrinted curves: not compared (w" in said
-    for path in ("figures/report.html", "figures/explorer.html", "workflow/config.yaml"):
+    assert "Do measurements agree with the model?\n  Agrees: A\n" in said
+    assert "\n  0 of 1 are (0 if a condition is added), 1 are not, 0 cannot be tested\n" in said
+    assert "PASSED: every result is as accepted, known differences included." in said
+    for path in ("figures/your_copy.html", "figures/report.html", "results/verdicts.txt"):
         assert path in said
 
 
@@ -87,9 +84,9 @@ def test_a_part_of_a_run_names_its_rows_and_is_not_the_whole(figures):
 
 def test_printed_curves_are_counted_and_fail_no_run():
     cells = {"group": "printed figure", "curve": "lumped"}
-    assert "\nPrinted curves: 10 of 10 compared.\n" in told(verdict="differs", **cells)
+    assert "\n  10 of 10 were compared: differs 10\n" in told(verdict="differs", **cells)
     said = told(verdict="not compared", why="other settings", **cells)
-    assert "included; 1 checks." in said and "Printed curves: not compared" in said  # the ledger's
+    assert "PASSED" in said and "\n  Not known: " in said
 
 
 def test_a_failed_run_names_its_rows_last_and_how_to_accept_them():

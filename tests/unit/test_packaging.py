@@ -15,6 +15,7 @@ from importlib import metadata
 from pathlib import Path
 
 import pytest
+import yaml
 
 import planarimpact
 
@@ -94,6 +95,24 @@ def test_wheel_and_source_archive_hold_the_package_alone(tmp_path):
 def test_one_version():
     assert f"\nversion: {planarimpact.__version__}\n" in text("CITATION.cff")
     assert f"\n## {planarimpact.__version__}, 20" in text("CHANGELOG.md")
+
+
+def test_a_certifier_finds_each_figure_of_the_paper_in_the_manifest():
+    """As version 2.0 of the specification asks. Whether the files are there: test_run.py."""
+    written = text("codecheck.yml")
+    assert written.startswith("---\n")
+    config = yaml.safe_load(written)
+    assert config["version"] == "https://codecheck.org.uk/spec/config/2.0/"
+    assert {"title", "authors", "reference"} <= set(config["paper"])
+    files = {entry["file"] for entry in config["manifest"]}
+    assert {f"figures/fig{number}.svg" for number in range(2, 10)} <= files
+    assert {"results/verdicts.csv", "data/accepted/verdicts.csv"} <= files
+
+
+def test_the_citation_has_the_doi_of_the_paper():
+    (paper,) = yaml.safe_load(text("CITATION.cff"))["references"]
+    reference = yaml.safe_load(text("codecheck.yml"))["paper"]["reference"]
+    assert reference == f"https://doi.org/{paper['doi']}"
 
 
 def test_the_page_for_the_index_links_to_nothing_beside_it():

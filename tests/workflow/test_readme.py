@@ -2,13 +2,13 @@
 
 import re
 import shlex
+import textwrap
 from pathlib import Path
 
 import pytest
 
 from planarimpact.__main__ import main
-from stronge1994 import figure_table, reference_data, tables
-from stronge1994.names import is_of_paper
+from stronge1994 import answers, reference_data, tables, words
 from stronge1994.settings import figures
 
 ROOT = Path(__file__).parents[2]
@@ -66,16 +66,25 @@ def test_commands_run_as_printed(line, somewhere, capsys):
     assert capsys.readouterr().out or list(somewhere.glob("spheres.*"))
 
 
-def test_the_main_readme_is_short_and_has_the_table_of_the_run(first_run):
-    """The command stands within its first 120 words; if its table is old, it is written anew."""
-    start, end = re.search(r"```text\n(.*?)\n```", MAIN, flags=re.S).span(1)
-    prose = MAIN[:start] + MAIN[end:]
-    assert len(MAIN.split("```sh")[0].split()) < 120 and len(prose.encode()) <= 4_600
-    rows = tables.read_rows(first_run[0] / "results/verdicts.csv")
-    shows = {name: c["shows"] for name, c in figures.stated().items() if is_of_paper(name)}
-    table = figure_table.text(figure_table.of_run(rows, shows))
-    last = f"{figure_table.beyond(rows)}\n{figure_table.of_solver(rows)}"
-    written_anew(ROOT / "README.md", MAIN, f"{MAIN[:start]}{table}\n{last}{MAIN[end:]}")
+def test_the_main_readme_is_short_and_answers_as_the_run_does(first_run):
+    """The answers end within 40 lines of 80 columns. If they are old, they are written anew."""
+    verdicts, ledger = (
+        tables.read_rows(first_run[0] / f"results/{name}.csv") for name in ("verdicts", "ledger")
+    )
+    found = answers.of_run(verdicts, ledger)
+    asked = [("question", "answer"), ("---", "---")]
+    asked += [(one.question, ". ".join(one.told) + " see below" * bool(one.table)) for one in found]
+    (changes,) = (one.table for one in found if one.table)
+    changed = [("result", "as printed", "by the model", "entries of the ledger"), ("---",) * 4]
+    changed += [(*row[:3], ", ".join(map(words.entry, row.entries))) for row in changes]
+    text = MAIN
+    for name, rows in (("answers", asked), ("changes", changed)):
+        start, end = re.search(f"<!-- {name} -->\n(.*?)<!-- end -->", text, flags=re.S).span(1)
+        text = text[:start] + "".join(f"| {' | '.join(r)} |\n" for r in rows) + text[end:]
+    written_anew(ROOT / "README.md", MAIN, text)
+    assert len(MAIN.encode()) <= 6_500
+    first = MAIN.split("<!-- answers -->")[0] + MAIN.split("<!-- answers -->")[1].split("<!--")[0]
+    assert sum(len(textwrap.wrap(line, 80)) or 1 for line in first.splitlines()) <= 40
 
 
 def written_anew(path, there, text):

@@ -39,7 +39,7 @@ try:
     from stronge1994 import paper  # which refuses an entry that is not complete
 
     SOURCES = reference_data.load_all("data")
-    ENTRIES = list(paper.entries(SOURCES["stronge1994"]["facts"]))
+    ENTRIES = paper.entries(SOURCES["stronge1994"]["facts"])
     configuration.check_config(config, SOURCES, ENTRIES)
     FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
     JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}
@@ -47,7 +47,8 @@ except (reference_data.SourceError, ledger_table.EntryError) as error:
     raise WorkflowError(str(error))
 
 PAPER = [figure for figure in FIGURES if is_of_paper(figure)]
-SHOWS = {figure: figures.stated()[figure]["shows"] for figure in PAPER}
+SHOWS = {figure: stated["shows"] for figure, stated in figures.stated().items()}
+GRADES = {name: entry.words.get("grade", "") for name, entry in ENTRIES.items()}
 TIMED, SLIDES = figures.with_trait("timed"), figures.with_trait("slide")  # as figure.yaml says
 NOTEBOOKS = sorted(path.stem for path in Path("workflow/notebooks").glob("*.ipynb"))
 # What can be asked for alone, and what it judges: Figs 2 to 9, the ledger, each figure, each scene.

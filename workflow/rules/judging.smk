@@ -19,16 +19,20 @@ rule judge:
 
 
 rule verdicts:
-    """All rows of the comparisons as one table. Never fails."""
+    """All rows of the comparisons as one table, and for readers by figure. Never fails."""
     input:
         code=["workflow/scripts/gather.py", *JUDGING],
         tables=expand(rules.judge.output.verdicts, judged=JUDGED),
     output:
-        report("results/verdicts.csv", category="Tables", caption="../report/verdicts.rst"),
+        table=report("results/verdicts.csv", category="Tables", caption="../report/verdicts.rst"),
+        by_figure="results/verdicts.txt",
     log:
         "results/logs/verdicts.log",
     conda:
         "../envs/planarimpact.yaml"
+    params:
+        shows=lambda _: SHOWS,
+        grades=GRADES,
     script:
         "../scripts/gather.py"
 
@@ -56,7 +60,7 @@ rule accept:
     """
     input:
         code=["workflow/scripts/accept.py", *JUDGING],
-        verdicts=rules.verdicts.output,
+        verdicts=[rules.verdicts.output.table],
         ledger=rules.check_ledger.output[0],
     log:
         "results/logs/accept.log",
@@ -70,7 +74,7 @@ rule gate:
     """Pass, or fail and say which rows are not as accepted. It waits for all that a run makes."""
     input:
         code=["workflow/scripts/gate.py", *JUDGING],
-        verdicts=rules.verdicts.output,
+        verdicts=[rules.verdicts.output.table],
         ledger=rules.check_ledger.output[0],
         accepted=ACCEPTED,
         made=EVERYTHING,
@@ -82,8 +86,9 @@ rule gate:
         "../envs/planarimpact.yaml"
     params:
         rows=rows_of(JUDGED),
-        entries=ENTRIES,
+        entries=list(GRADES),
         shows=lambda _: SHOWS,
+        grades=GRADES,
     script:
         "../scripts/gate.py"
 
@@ -102,4 +107,4 @@ use rule gate as gate_of_target with:
         "results/logs/gate_{target}.log",
     params:
         rows=lambda wildcards: rows_of(TARGETS[wildcards.target]),
-        entries=lambda wildcards: ENTRIES if wildcards.target == "ledger" else [],
+        entries=lambda wildcards: list(GRADES) if wildcards.target == "ledger" else [],

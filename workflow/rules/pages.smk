@@ -25,6 +25,7 @@ rule report:
         report="figures/report.html",
         sources="figures/sources.html",
         ledger="figures/ledger.html",
+        run="figures/run.txt",
         tables=directory("figures/tables"),  # copies, so that figures/ can be sent alone
         which_model=report("results/which_model.csv", category="Tables", caption="../report/which_model.rst"),
     log:
@@ -41,7 +42,7 @@ rule report:
             "sources": SOURCES,
             "overlays": OVERLAYS,
             "rows": rows_of(JUDGED),
-            "entries": ENTRIES,
+            "grades": GRADES,
         },
     script:
         "../scripts/write_report.py"

@@ -14,7 +14,7 @@ verdicts = verdict_table.gather(given.verdicts)
 ledger = tables.read_rows(given.ledger, ledger_table.COLUMNS) if asked.entries else []
 known = accepted.read(given.accepted)
 faults = gate.faults(verdicts, ledger, asked.rows, asked.entries, known)
-told = gate.summary(verdicts, ledger, faults, asked.shows)
+told = gate.summary(verdicts, ledger, faults, asked.shows, asked.grades)
 print(told)
 if faults or gate.unmade(verdicts):
     sys.exit(1)

@@ -15,7 +15,7 @@ from stronge1994.names import STRONGE
 from stronge1994.reference_data import Fact, Series
 from stronge1994.reference_data.formats import CONFIG, Declared, Number, Span
 from stronge1994.tables import Table
-from stronge1994.verdict_table import Group, Why
+from stronge1994.verdict_table import Group
 
 # Parts of the axis of incidence, in order; the limits of the regimes divide it into these.
 REGIMES = ("initial stick", "slip and stick", "slip throughout")
@@ -81,24 +81,19 @@ class Landmark(Declared):
 class KnownDifference(Declared):
     """What is known of a difference, and its cause: an entry of the ledger or a note.
 
-    The scatter is not published where the reference does not state how much its values scatter or
-    err: sigma is unknown. A note is for what does not concern the paper; `paper` says of a
-    statement of the paper whether it is wrong, or vague if that is a matter of judgement.
+    The entry says how wrong the paper is, by its grade. A note is for what does not concern it.
     """
 
-    why: Literal["cause known", "cause unknown", "scatter not published"]
+    why: Literal["cause known", "cause unknown"]
     entry: str = ""
     note: Annotated[str, Field(min_length=5)] = ""
-    paper: Literal["wrong", "vague"] | None = None
 
     def faults(self) -> Iterator[str]:
         """Whether it says where more stands."""
         if self.entry and self.note:
             yield "note: allowed is either a note or an entry of the ledger"
-        elif not (self.entry or self.note or self.why == Why.UNPUBLISHED):
+        elif not (self.entry or self.note):
             yield "note or entry: missing; one of them says what is known of the difference"
-        if self.paper and not self.entry:
-            yield "entry: missing; the ledger has it where the paper is wrong or vague"
 
 
 @dataclass(frozen=True, config=CONFIG)
@@ -202,9 +197,9 @@ class Comparison(Declared):
     def group(self) -> Group:
         """With what it compares.
 
-        OTHERS: points of nature, and what other codes compute and others state. PAPER: what the
-        paper states, and a difference that is an entry of the ledger. PRINTED: its printed curves.
-        All else, our second codes and laws, only checks our SOLVER.
+        OTHERS: points that others measured, and what other codes compute and others state. PAPER:
+        what the paper states, and a difference that is an entry of the ledger. PRINTED: its printed
+        curves. All else, our second codes and laws, only checks our SOLVER.
         """
         known, reference = self.differs, self.reference
         if reference is not None and reference.name.split("/")[0] == STRONGE:

@@ -97,11 +97,13 @@ def _row(
         return cells | {"verdict": Verdict.FAILS, "note": plain(f"{error}")}
     notes = [measured.note]
     if verdict == Verdict.DIFFERS and known:
-        cells |= {"why": known.why, "paper": known.paper or "", "entry": known.entry}
+        cells |= {"why": known.why, "entry": known.entry}
         notes = [plain(known.note), *notes]
     elif verdict in (Verdict.DIFFERS, Verdict.FAILS):
         cells |= {"why": Why.UNKNOWN} if verdict == Verdict.DIFFERS else {}
         notes += [_place(measured)] if len(measured.at) > 1 else []
+    elif verdict == Verdict.CANNOT_JUDGE and isinstance(reference, Series):
+        notes = [f"not published: {reference.unpublished}", *notes]
     cells |= numbers | {"verdict": verdict, "note": "; ".join(filter(None, notes))}
     of = measured.curves or cells["curve"]
     own = comparison.name, of, measured.quantity, measured.at, measured.sigmas

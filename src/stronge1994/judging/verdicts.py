@@ -3,6 +3,10 @@
 Published points that agree with a curve are evidence only if they could have disagreed. So each
 comparison says which error of the curve it would have noticed, see `goodness.smallest_error`: of
 its size or, where a factor was fitted that explains any size, of its length along x.
+
+Where an error of the points is not published, such as the scatter of a measurement, sigma is too
+small by an unknown amount. Then points can agree, as a larger sigma explains a distance all the
+more. That they differ cannot be judged.
 """
 
 from typing import NamedTuple
@@ -40,11 +44,12 @@ def judge(comparison: Comparison, measured: Measured, significance: float) -> Ju
     chi2 = chi_squared(measured.sigmas, *shared)
     direction = measured.larger if measured.free is None else measured.wider
     error = smallest_error(direction, *shared, significance=significance)
+    agrees = chi2.p > DOUBT * significance and error <= LARGEST_ERROR
+    if reference.unpublished and not agrees:
+        return Judged(Verdict.CANNOT_JUDGE, chi2, error)
     if not chi2.p > significance:  # nor if it is nan
         return Judged(Verdict.DIFFERS, chi2, error)
-    if chi2.p > DOUBT * significance and error <= LARGEST_ERROR:
-        return Judged(Verdict.AGREES, chi2, error)
-    return Judged(Verdict.CANNOT_TELL, chi2, error)
+    return Judged(Verdict.AGREES if agrees else Verdict.CANNOT_TELL, chi2, error)
 
 
 def error_in_words(comparison: Comparison, measured: Measured, error: float | None) -> str:

@@ -6,7 +6,6 @@ Nothing is solved here.
 import io
 import re
 import shutil
-from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -16,6 +15,7 @@ from markupsafe import Markup
 
 from stronge1994 import (
     accepted,
+    answers,
     figure_table,
     gate,
     ledger_table,
@@ -36,16 +36,17 @@ from stronge1994.verdict_table import Group, Verdict, Why
 
 MEANING = {
     Verdict.FAILS: "a check of our solver is outside its tolerance: the run fails",
-    Verdict.DIFFERS: "outside the tolerance: the cause is known or unknown, or the scatter of the "
-    "data is not published, so that nobody can say what a difference means",
+    Verdict.DIFFERS: "outside the tolerance, and chance does not explain the distances",
     Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, "
     f"{100 * LARGEST_ERROR:g} % too large; or chance would explain the distances, but seldom",
+    Verdict.CANNOT_JUDGE: "an error of the points is not published, such as their scatter: the "
+    "distance stands there without a verdict",
     Verdict.NOT_COMPARED: "points, most of them of printed curves, are awaited, or are for other "
     "settings than those of the run",
     Verdict.AGREES: "within the tolerance of a stated value, or chance explains the distances",
 }
 # What stands first among the comparisons of a figure.
-FIRST = (Verdict.FAILS, Verdict.NOT_COMPARED, Verdict.DIFFERS)
+FIRST = (Verdict.FAILS, Verdict.NOT_COMPARED, Verdict.DIFFERS, Verdict.CANNOT_JUDGE)
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
 # Models whose restitution is tried below e = 1, in words.
 BELOW_ONE = {
@@ -61,7 +62,9 @@ SECTIONS = ("which_model", "trade")
 
 def page(values: TemplateValues) -> str:
     """The report, from `values` as `write` makes them."""
-    verdicts, entries = values["verdicts"], {row["entry"] for row in values["ledger"]}
+    verdicts, ledger = values["verdicts"], values["ledger"]
+    unmade, entries = gate.unmade(verdicts), {row["entry"] for row in ledger}
+    passes = not values["faults"] and not unmade
     environment = templates.environment()
     environment.filters |= {
         "maths": ledger_page.linked_maths(entries, "ledger.html"),
@@ -75,18 +78,15 @@ def page(values: TemplateValues) -> str:
     table = values["table"]
     return environment.get_template("report.html").render(
         values,
-        lapsed=ledger_table.failing(values["ledger"]),
-        grave=[row for row in values["ledger"] if row["grade"] == next(iter(ledger_table.GRADES))],
-        unmade=gate.unmade(verdicts),
+        answers=answers.of_run(verdicts, ledger) if passes else [],
+        lapsed=ledger_table.failing(ledger),
+        grave=[row for row in ledger if row["quantity"]],
+        unmade=unmade,
         in_paper=[row for row in table if is_of_paper(row.figure)],
         largest={row.figure: largest(row, verdicts) for row in table},
         rows={row["comparison"]: row for row in verdicts},
-        counts=Counter(row["verdict"] for row in values["ledger"]),
         below_one=BELOW_ONE,
         beyond=[row for row in table if not is_of_paper(row.figure) and row.others],
-        of_solver=figure_table.of_solver(verdicts),
-        of_printed=figure_table.of_printed(verdicts),
-        beyond_paper=figure_table.beyond(verdicts),
         meaning=MEANING,
         scenes=parts([row for row in verdicts if row["figure"] not in values["figures"]]),
         solver=Group.SOLVER,
@@ -169,7 +169,11 @@ def parts(rows: Sequence[Row]) -> TemplateValues:
         if row["verdict"] == verdict and (verdict == Verdict.FAILS or of_paper(row))
     ]
     rest = [row for row in rows if row not in first]
-    with_others, own = figure_table.counted(rest), figure_table.counted(rest, solver=True)
+    sides = (
+        [row for row in rest if (row["group"] == Group.SOLVER) is solver]
+        for solver in (False, True)
+    )
+    with_others, own = map(figure_table.counted, sides)
     counts = [with_others, f"solver checked: {own}" if own else ""]
     return {"first": first, "rest": rest, "counts": "; ".join(filter(None, counts))}
 
@@ -207,13 +211,13 @@ def write(
     sources: Mapping[str, Any],
     overlays: Mapping[str, str],
     rows: Collection[str],
-    entries: Collection[str],
+    grades: Mapping[str, str],
 ) -> None:
     """Write all pages and the tables that belong to them; files and settings are those of the rule.
 
     `shows` and `captions` are those of the figures, `slides` names those that have one. `sources`
-    holds data/*/source.yaml, and `overlays` pictures of prints by series. `rows` and `entries` are
-    as in `gate.faults`.
+    holds data/*/source.yaml, and `overlays` pictures of prints by series. `rows` and `grades` are
+    as in `gate.faults` and `gate.summary`.
     """
     verdicts = verdict_table.gather([given.verdicts])
     ledger = tables.read_rows(given.ledger)
@@ -226,14 +230,13 @@ def write(
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
     residuals = {Path(path).stem: pd.read_csv(path) for path in given.residuals}
     shown = [_with_formulas(row, config) for row in verdicts]
-    table = figure_table.of_run(verdicts, shows)
+    table = figure_table.of_run(verdicts, shows, grades)
     figures = {
         name: figure(
             name, picture, captions[name], residuals[name], shown, name in slides, overlays
         )
         for name, picture in pictures.items()
     }
-    run = versions.of_run()
     known = accepted.read(given.accepted)
     values = {
         "verdicts": shown,
@@ -246,13 +249,14 @@ def write(
         "cases": which_model.cases(answers, trade),
         "significance": config["significance"],
         "doubt": DOUBT * config["significance"],
-        "run": run,
-        "faults": gate.faults(verdicts, ledger, rows, entries, known),
+        "commit": versions.commit("."),
+        "faults": gate.faults(verdicts, ledger, rows, grades, known),
     }
     pages = {
         made.report: page(values),
-        made.sources: sources_page.page(sources, config, run),
+        made.sources: sources_page.page(sources, config),
         made.ledger: ledger_page.page(ledger),
+        made.run: versions.of_run(),
     }
     for path, text in pages.items():
         Path(path).write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Page of the sources of data, settings and versions of a run."""
+"""Page of the sources of data and settings of a run."""
 
 import json
 from collections import Counter
@@ -48,7 +48,7 @@ def used(source: str, comparisons: Mapping[str, Any]) -> list[str]:
     return list(dict.fromkeys(c["figure"] for c in every))
 
 
-def page(sources: Mapping[str, Any], config: Mapping[str, Any], run: Mapping[str, Any]) -> str:
+def page(sources: Mapping[str, Any], config: Mapping[str, Any]) -> str:
     """The page of sources and settings, from data/*/source.yaml and the config of the run."""
     comparisons = config["comparisons"].items()
     settings = {
@@ -64,7 +64,6 @@ def page(sources: Mapping[str, Any], config: Mapping[str, Any], run: Mapping[str
         used={name: used(name, config["comparisons"]) for name in sources},
         shared={key: config[key] for key in (*SHARED, "significance")},
         settings={figure: in_yaml(part) for figure, part in settings.items()},
-        run=run,
     )
 
 

@@ -18,6 +18,7 @@ MARKS = {
     Verdict.FAILS: "fails",
     Verdict.DIFFERS: "misprint",
     Verdict.CANNOT_TELL: "not",
+    Verdict.CANNOT_JUDGE: "not",
     Verdict.NOT_COMPARED: "not",
     Verdict.AGREES: "confirmed",
     Verdict.PASSED: "confirmed",

@@ -37,10 +37,13 @@ def _outcome(entry: Entry) -> Row:
             return {}
         found = entry.run()
         problem = entry.judge(found)
+        values = entry.values(found.value) if entry.values else ("", "")
     except Exception as error:
         traceback.print_exc()
         return {"holds": "no", "problem": f"{type(error).__name__}: {error}"}
     return {
+        "printed": values[0],
+        "by model": values[1],
         "holds": "no" if problem else "yes",
         "found": f"{found.value:.6g}",
         "corrected": "" if found.corrected is None else f"{found.corrected:.2g}",

@@ -3,6 +3,7 @@
 Distances of Eqs 38 to 41 are over m1 v1(0)^2/2, the tangential kinetic energy at first.
 """
 
+from functools import cache
 from itertools import product
 
 import numpy as np
@@ -16,6 +17,7 @@ from stronge1994.paper.entry import entry
 from stronge1994.paper.introduction import ANGLES, compliance_immaterial, dissipated
 from stronge1994.paper.slip import strain_decreases
 from stronge1994.printed import equations
+from stronge1994.printed import impact as as_printed
 
 
 @entry(
@@ -35,6 +37,24 @@ def kinetic_energy(clockwise: float) -> Gaps:
     exact = mass * (centre[0] ** 2 + centre[1] ** 2 + (gyration * clockwise) ** 2) / 2
     printed = v1**2 + v2**2 - 2 * x2 * v1 * clockwise + (x2**2 + gyration**2) * clockwise**2
     yield mass / 2 * printed / exact - 1
+
+
+FRICTION_TAKES = "energy to friction (Eqs 38-40, e = 1)"
+
+
+@cache
+def without_strain_energy(_: float) -> tuple[str, str]:
+    """What Eqs 38 to 40 leave out, and how far they are off for it in Fig. 9 at e = 1.
+
+    At e = 0.5 the error of Eq. 25 comes on top. By tenths of a degree.
+    """
+    theta, gaps = np.radians(ANGLES[9::20]), []
+    for mu in (0.1, 0.5):
+        x = np.tan(theta) / mu
+        printed = as_printed.rebound(x, *contact.SPHERE, 1.0)[2]
+        apart = np.abs(printed - lumped.rebound(x, *contact.SPHERE, 1.0).dissipation)
+        gaps.append(float(np.nanmax(2 * (mu * np.cos(theta)) ** 2 * apart)))
+    return f"{max(gaps):.2g} m2 S^2/2 off", "with strain energy"
 
 
 def _normal(impact: Contact) -> float:
@@ -94,6 +114,8 @@ def eq_38(c: Contact, impulse_left: Numbers, sign: int) -> Numbers:
     verdict="wrong",
     grade="changes a result",
     cause="strain-energy",
+    quantity=FRICTION_TAKES,
+    values=without_strain_energy,
     correction="In Eq. 38 the direction $s$ takes the sign of the last slip, and the tangential "
     r"strain energy at $t_1$, $(\kappa/\zeta^2) u_1(t_1)^2/2$, is added",
     derivation="Friction acts on the particle, which slides with $v_1 + du_1/dt$. So $D_1$ is "
@@ -128,6 +150,8 @@ def friction_after_stick(impact: Contact) -> tuple[ArrayLike, float]:
     verdict="wrong",
     grade="changes a result",
     cause="strain-energy",
+    quantity=FRICTION_TAKES,
+    values=without_strain_energy,
     explorer={"angle": 14, "friction": 0.5, "restitution": 1, "view": "energy"},
     correction=r"In Eq. 39 the product $s g_1$ takes the place of $g_1$, and $\mu^2 "
     r"\zeta^2\,\sin^2(\alpha)$, with $\alpha$ at $t_1$, is added",
@@ -164,6 +188,8 @@ def friction_after_stick_in_groups(impact: Contact) -> tuple[ArrayLike, float]:
     verdict="wrong",
     grade="changes a result",
     cause="strain-energy",
+    quantity=FRICTION_TAKES,
+    values=without_strain_energy,
     explorer={"angle": 45, "friction": 0.5, "restitution": 1, "view": "energy"},
     correction=r"The term $\mu^2 \zeta^2 [F_2(t_3)^2 - F_2(t_2)^2]/(m_2 \Omega v_2(0))^2$ is added "
     "to Eq. 40. The same results if the terms with $v_1(t_2)$ and $v_1(t_3)$ are left out",
@@ -349,6 +375,13 @@ entry(
 )(compliance_immaterial)
 
 
+def places_of_most(_: float) -> tuple[str, str]:
+    r"""Angle of the printed limit of slip throughout, and of most dissipation; e = 1, mu = 0.1."""
+    limit = np.degrees(np.arctan(0.1 * equations.slip_throughout_limit(contact.MASS_RATIO, 1.0)))
+    most = ANGLES[dissipated(0.1, 1.0).argmax()]
+    return f"just above {limit:.3g} deg", f"at {most:.3g} deg"
+
+
 @entry(
     "largest-dissipation-angle",
     "p. 448, 5th sentence after Eq. 41",
@@ -358,6 +391,8 @@ entry(
     verdict="wrong",
     grade="changes a result",
     cause="place-of-most-dissipation",
+    quantity="friction takes most (mu = 0.1, e = 1)",
+    values=places_of_most,
     explorer={"angle": 54.6, "friction": 0.1, "restitution": 1, "view": "energy"},
     correction=r"Friction dissipates most at $\tan(2 \theta) = -2/(\mu (1 + e) m_2/m_1)$. For $\mu "
     "= 0.1$ this is 54.6° at $e = 1$ and 52.4° at $e = 0.5$, while $(1 + e) m_2/m_1$ is at 35.0° "

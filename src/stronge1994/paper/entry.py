@@ -19,14 +19,22 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from planarimpact.common.arrays import ArrayLike
-from stronge1994.ledger_table import GRADES, VERDICTS, EntryError
+from stronge1994.ledger_table import (
+    CONFIRMED,
+    GRADES,
+    NOT_TESTABLE,
+    ROUNDED,
+    VERDICTS,
+    WRONG,
+    EntryError,
+)
 from stronge1994.paper.words import CAUSES
 
 # Numbers nearer than this are equal. It leaves room for the rounding of a few hundred operations,
 # and for the error of quadrature.
 EXACT = 1e-9
 
-CONFIRMED, ROUNDED, WRONG, NOT_TESTABLE = VERDICTS
+CHANGES = next(iter(GRADES))
 VIEWS = ("velocity", "forces", "energy")
 EQUATION = re.compile(r"(eq|formula|table)-")
 REFERENCE = re.compile(r"\bsee ([a-z0-9]+(?:-[a-z0-9.]*[a-z0-9])+)")
@@ -61,6 +69,7 @@ class Entry:
     explorer: Mapping[str, Any] | None
     given: Mapping[str, Any]
     check: Callable[..., Finding] | None = None
+    values: Callable[[float], tuple[str, str]] | None = None
     test: str = ""
     code: str = ""  # where the check is
 
@@ -128,6 +137,7 @@ def entry(
     fact: str | None = None,
     kind: str | None = None,
     explorer: Mapping[str, Any] | None = None,
+    values: Callable[[float], tuple[str, str]] | None = None,
     **words: str,
 ) -> Callable[[_Check], _Check]:
     """Enter a statement of the paper into the ledger, with the function that checks it.
@@ -162,12 +172,16 @@ def entry(
         most `EXACT`.
     explorer : dict, optional
         An impact of the paper's sphere that shows it, and the view of the explorer.
+    values : callable, optional
+        Where a result is changed: takes the number found, and returns what the paper prints and
+        what its model gives, in the words of a terminal. `quantity` says of what.
     **words : str
         reading (what our copy, a scanned text, or the sentence leaves open: which reading is
         judged, and what another one would change); holds (where the statement is right
         nevertheless, or what bounds it); only_if (of what is confirmed: a condition that the paper
         does not ask for where `where` points, to stand behind "right only if"); why (not testable).
-        For what is wrong: correction, derivation, cause (one of `CAUSES`), and grade, how much
+        For what is wrong: correction, derivation, cause (one of `CAUSES`), quantity if a result is
+        changed (of what the `values` are), and grade, how much
         hangs on it. "changes a result": a limit, a formula or a number that a reader would take
         from the paper is another one, under every fair reading; an angle that the paper places is
         one, if more than 5 deg off. "sign or misprint": one sign, digit or word, perhaps lost or
@@ -208,6 +222,7 @@ def entry(
         words,
         explorer,
         given or {},
+        values=values,
     )
     for fault in _faults(made, criterion):
         raise EntryError(f"{name}: {fault}")
@@ -231,13 +246,14 @@ def entry(
 def _faults(made: Entry, criterion: Mapping[str, Any]) -> Iterable[str]:
     """What is wrong with an entry."""
     of_wrong = {"correction", "derivation", "cause", "grade"}
+    changed = {"quantity"} if made.words.get("grade") == CHANGES else set()
     allowed = {
         NOT_TESTABLE: {"why", "reading", "holds"},
-        WRONG: {*of_wrong, "reading", "holds"},
+        WRONG: {*of_wrong, *changed, "reading", "holds"},
     }.get(made.verdict, {"only_if", "reading", "holds"})
     needed = {NOT_TESTABLE: {"why"}, WRONG: of_wrong}.get(made.verdict, set())
-    if made.verdict == WRONG and made.words.get("grade") != next(iter(GRADES)):
-        needed = needed | {"reading"}
+    if made.verdict == WRONG:
+        needed = needed | (changed or {"reading"})
     if made.name in LEDGER:
         yield "the name is taken"
     if not re.fullmatch(r"[a-z][a-z0-9.-]*", made.name):
@@ -246,7 +262,7 @@ def _faults(made: Entry, criterion: Mapping[str, Any]) -> Iterable[str]:
         yield f"where is {made.where!r}: it begins with a page, such as p. 440"
     for key, value, values in (
         ("verdict", made.verdict, VERDICTS),
-        ("grade", made.words.get("grade", "changes a result"), GRADES),
+        ("grade", made.words.get("grade", CHANGES), GRADES),
         ("cause", made.words.get("cause", next(iter(CAUSES))), CAUSES),
         ("view", (made.explorer or {"view": VIEWS[0]})["view"], VIEWS),
     ):
@@ -255,9 +271,11 @@ def _faults(made: Entry, criterion: Mapping[str, Any]) -> Iterable[str]:
     for key in sorted(needed - set(made.words)):
         yield f"no {key}: {made.verdict!r} needs it"
     for key in sorted(set(made.words) - allowed):
-        if key not in {*of_wrong, "only_if", "why"}:
+        if key not in {*of_wrong, "quantity", "only_if", "why"}:
             yield f"{key}: `entry` takes no such argument"
         yield f"{key}: allowed beside {made.verdict!r} are {', '.join(sorted(allowed))}"
+    if bool(changed) != bool(made.values):
+        yield f"values: allowed and needed beside the grade {CHANGES!r}"
     if made.verdict == NOT_TESTABLE and criterion:
         yield f"{next(iter(criterion))}: an entry that is not testable has no check"
     if set(criterion) not in (set(), {"value", "rounding"}) and not (

@@ -117,6 +117,23 @@ def rebound_after_stick(impact: Contact) -> Gaps:
     yield impact.printed(equations.eq_15_rebound, v1_t1=impact.v1_t1 / scale) - impact.final / scale
 
 
+def limits_of_slip(_: float) -> tuple[str, str]:
+    """Where slip throughout begins as printed, and by the regimes of the model; e is 1 and 0.5."""
+    beta, restitutions = contact.MASS_RATIO, (1.0, 0.5)
+    printed = [equations.slip_throughout_limit(beta, e) for e in restitutions]
+    own = [regime_boundary(contact.SPHERE, e) for e in restitutions]
+    return f"{printed[0]:.3g}, {printed[1]:.3g} mu v2(0)", f"{own[0]:.3g}, {own[1]:.3g} mu v2(0)"
+
+
+def regime_boundary(groups: tuple[float, float], e: float) -> float:
+    """Incidence from which the model slips throughout, by bisection of regimes."""
+
+    def sticks(x: float) -> bool:
+        return lumped.rebound(x, *groups, e).regime != Regime.SLIP_THROUGHOUT
+
+    return boundary(sticks, 0.0, 4 * groups[0])
+
+
 @entry(
     "slip-throughout-limit",
     "pp. 441 and 445, headings of the intermediate angles of incidence; p. 443, 2nd sentence "
@@ -128,6 +145,8 @@ def rebound_after_stick(impact: Contact) -> Gaps:
     verdict="wrong",
     grade="changes a result",
     cause="slip-limit",
+    quantity="slip throughout from (e = 1 and 0.5)",
+    values=limits_of_slip,
     explorer={"angle": 72.6, "friction": 0.5, "restitution": 1, "view": "velocity"},
     correction=r"Slip throughout begins at $m_2/m_1 + \mathrm{max}(0, e m_2/m_1 - \zeta^2/e)$, but "
     r"not below $\zeta^2$. For the paper's sphere this is 5.79 instead of 7 at $e = 1$, and 3.5 "
@@ -164,11 +183,7 @@ def slip_throughout_limit(place: tuple[tuple[float, float], float]) -> tuple[Arr
     Corrected, by Eqs 17 to 20: $\beta + \mathrm{max}(0, e \beta - \zeta^2/e)$.
     """
     (beta, zeta2), e = place
-
-    def sticks(x: float) -> bool:
-        return lumped.rebound(x, beta, zeta2, e).regime != Regime.SLIP_THROUGHOUT
-
-    exact = boundary(sticks, 0.0, 4 * beta)
+    exact = regime_boundary((beta, zeta2), e)
     later = e * beta - zeta2 / e if e else 0.0
     return equations.slip_throughout_limit(beta, e) - exact, beta + max(0.0, later) - exact
 
@@ -551,6 +566,8 @@ def deflection_when_slip_reverses() -> float:
     verdict="wrong",
     grade="changes a result",
     cause="last-slip-direction",
+    quantity="last slip always against the first",
+    values=lambda e: ("yes", f"not if e < {e:.2g}"),
     explorer={"angle": 58, "friction": 0.5, "restitution": 0.5, "view": "velocity"},
     correction="The sentence is right at all intermediate incidences only for $e > "
     r"\Omega/\omega$, which is 0.588 for the paper's sphere. At $e = 0.5$ it is right only for "

@@ -28,7 +28,7 @@ from stronge1994.reference_data.formats import (
 )
 from stronge1994.tables import Table, with_unit
 
-# Kinds of series that hold points of nature: published ones, or measured by their owner.
+# Kinds of series that hold measured points, or published ones.
 PUBLISHED = ("measured", "digitised", "stated", "awaited")
 # What an entry has besides, by its kind.
 NEEDED = {
@@ -182,6 +182,8 @@ class Series(Declared):
     name a point; those of the table of curves, such as model and e, choose the curve that it is
     compared with. `others` says that a code which is not ours computed it. `sigma_values` is the
     number of independent values from which the sigmas were estimated, None if they are known.
+    `unpublished` names an error of the points that nobody has published, such as the scatter of a
+    measurement: sigma does not hold it, so that no difference from the points can be judged.
     `settings` are those of a figure for which alone the points hold: where a run has others, they
     are not compared; of a list they are values that it must have. `open` names settings that the
     source does not state: whoever reads an awaited series says in the head of its file for which
@@ -202,6 +204,7 @@ class Series(Declared):
     labels: tuple[str, ...] = ()
     others: Truth = False
     sigma_values: Whole | None = None
+    unpublished: Text10 = ""
     figure: Text3 = ""
     legend: Text3 = ""
     parameters: dict[str, float] = field(default_factory=dict)
@@ -248,7 +251,7 @@ class Series(Declared):
 
     @property
     def is_published(self) -> bool:
-        """Whether it holds points of nature, see `PUBLISHED`."""
+        """Whether its points were measured or published, see `PUBLISHED`."""
         return self.kind in PUBLISHED
 
     def points(self) -> Table:

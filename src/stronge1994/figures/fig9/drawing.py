@@ -80,7 +80,7 @@ def _draw_added(axes: Axes, balance: Table, curves: Table) -> Entries:
         entries.append(house_style.line(axes, curve, X, Y, **style))
     for line in entries[1:]:
         line.set_label("_")
-    entries = entries[:1] + house_style.as_printed(axes, curves, X, Y, "Eqs 39, 40")
+    entries = entries[:1] + house_style.as_printed(axes, curves, X, Y, "Eqs 38-40")
     continua = curves[tables.where(curves, model=CONTINUA)]
     for e, own in continua.groupby("e", sort=False):
         entries += model_lines.draw(axes, own, X, Y, f", $e = {e:g}$")
