@@ -93,6 +93,7 @@ def test_verdicts(known):
 def test_points_agree_if_they_would_notice_an_error_of_a_tenth(number, of_sigma, parameter, error):
     """All lie as far beside it; one that is larger by `error` would fail in nine of ten cases."""
     known = Series("digitised", AXIS, AXIS, sigma_values=of_sigma)
+    lacks = Series("digitised", AXIS, AXIS, sigma_values=of_sigma, unpublished="scatter of it")
     shifts = parameter * np.ones((1, number))  # an uncertain parameter moves all points
     degrees = number, of_sigma or 1e9
     spread = 1 + parameter * number
@@ -125,7 +126,13 @@ def test_points_agree_if_they_would_notice_an_error_of_a_tenth(number, of_sigma,
             found = judged(sign * far(p))
             assert found.verdict == verdict
             assert found.error == pytest.approx(error, rel=1e-3)
-    assert judged(np.nan).verdict == Verdict.DIFFERS
+            # What sigma lacks explains a distance all the more, but nobody knows how far.
+            agrees = verdict == Verdict.AGREES
+            unknown = judged(sign * far(p), lacks)
+            assert unknown.verdict == (Verdict.AGREES if agrees else Verdict.CANNOT_JUDGE)
+            assert unknown.chi2 == found.chi2
+    for reference in (known, lacks):
+        assert judged(np.nan, reference).verdict == Verdict.DIFFERS
     for size, verdict in ((1.0, Verdict.PASSED), (1.001, Verdict.FAILS)):
         computed = Series("computed", AXIS, AXIS)
         found = {judged(size, computed).verdict, judged(-size, None).verdict}

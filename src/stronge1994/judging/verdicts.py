@@ -45,7 +45,7 @@ def judge(comparison: Comparison, measured: Measured, significance: float) -> Ju
     direction = measured.larger if measured.free is None else measured.wider
     error = smallest_error(direction, *shared, significance=significance)
     agrees = chi2.p > DOUBT * significance and error <= LARGEST_ERROR
-    if reference.unpublished and not agrees:
+    if reference.unpublished and not agrees and np.isfinite(chi2.p):
         return Judged(Verdict.CANNOT_JUDGE, chi2, error)
     if not chi2.p > significance:  # nor if it is nan
         return Judged(Verdict.DIFFERS, chi2, error)

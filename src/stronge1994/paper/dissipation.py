@@ -43,7 +43,7 @@ FRICTION_TAKES = "energy to friction (Eqs 38-40, e = 1)"
 
 
 @cache
-def without_strain_energy(_: float) -> tuple[str, str]:
+def without_strain_energy() -> tuple[str, str]:
     """What Eqs 38 to 40 leave out, and how far they are off for it in Fig. 9 at e = 1.
 
     At e = 0.5 the error of Eq. 25 comes on top. By tenths of a degree.
@@ -115,7 +115,7 @@ def eq_38(c: Contact, impulse_left: Numbers, sign: int) -> Numbers:
     grade="changes a result",
     cause="strain-energy",
     quantity=FRICTION_TAKES,
-    values=without_strain_energy,
+    values=lambda _: without_strain_energy(),
     correction="In Eq. 38 the direction $s$ takes the sign of the last slip, and the tangential "
     r"strain energy at $t_1$, $(\kappa/\zeta^2) u_1(t_1)^2/2$, is added",
     derivation="Friction acts on the particle, which slides with $v_1 + du_1/dt$. So $D_1$ is "
@@ -151,7 +151,7 @@ def friction_after_stick(impact: Contact) -> tuple[ArrayLike, float]:
     grade="changes a result",
     cause="strain-energy",
     quantity=FRICTION_TAKES,
-    values=without_strain_energy,
+    values=lambda _: without_strain_energy(),
     explorer={"angle": 14, "friction": 0.5, "restitution": 1, "view": "energy"},
     correction=r"In Eq. 39 the product $s g_1$ takes the place of $g_1$, and $\mu^2 "
     r"\zeta^2\,\sin^2(\alpha)$, with $\alpha$ at $t_1$, is added",
@@ -189,7 +189,7 @@ def friction_after_stick_in_groups(impact: Contact) -> tuple[ArrayLike, float]:
     grade="changes a result",
     cause="strain-energy",
     quantity=FRICTION_TAKES,
-    values=without_strain_energy,
+    values=lambda _: without_strain_energy(),
     explorer={"angle": 45, "friction": 0.5, "restitution": 1, "view": "energy"},
     correction=r"The term $\mu^2 \zeta^2 [F_2(t_3)^2 - F_2(t_2)^2]/(m_2 \Omega v_2(0))^2$ is added "
     "to Eq. 40. The same results if the terms with $v_1(t_2)$ and $v_1(t_3)$ are left out",
