@@ -13,7 +13,7 @@ from stronge1994.verdict_table import WIDTH, Group, Verdict
 # What was measured, where the name of a source says too little.
 MEASURED = {
     "osakue_rogers2001": "two inequalities",
-    "cornell1999": "materials, e < 1",
+    "cornell1999": "pairs of materials",
     "lewis_rogers1988": "peak angle",
 }
 COMPUTED = ("maw1976", "chung_ooi2011")  # by others, and so no measurements
@@ -57,25 +57,20 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
     right, under = found[CONFIRMED] + found[ROUNDED], ledger_table.conditional(ledger)
     grave = changes(ledger)
     count = sum(len(change.entries) for change in grave)
-    apart = [row for row in verdicts if row["comparison"] == STICKS_FIRST]
-    sizes = [with_unit(float(f"{float(row['max']):.2g}"), row["unit"]) for row in apart]
     return [
         Answer("Does the solver solve the paper's model?", [_of_solver(verdicts)]),
         Answer(
             "Are the paper's statements right, by its own model?",
             [
-                f"{right} of {len(ledger)} are ({under} if a condition is added), "
-                f"{found[WRONG]} are not, {found[NOT_TESTABLE]} cannot be tested"
+                f"{right} of {len(ledger)} are, {under} of these if a condition is added; "
+                f"{found[WRONG]} are not; {found[NOT_TESTABLE]} not testable"
             ],
         ),
         Answer("Which errors change a result?", [f"{count} statements:"], grave),
         Answer("Are our curves the printed ones?", [_of_prints(verdicts)]),
         Answer(
             'Is the model "practically identical" with Maw\'s continuum?',
-            [
-                f"Velocities differ by up to {size}, most where the contact sticks first"
-                for size in sizes
-            ],
+            [_from_continuum(row, ledger) for row in verdicts if row["comparison"] == STICKS_FIRST],
         ),
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(
@@ -89,6 +84,14 @@ def _of_solver(verdicts: Sequence[Row]) -> str:
     own = [row for row in verdicts if row["verdict"] == Verdict.PASSED]
     exact = sum("_40_digits/" in row["reference"] for row in own)
     return f"Yes: {len(own)} checks pass, by our second codes ({exact} with 40 digits) or laws"
+
+
+def _from_continuum(row: Row, ledger: Sequence[Row]) -> str:
+    """How wrong the ledger calls it, and how far apart the speeds along the surface are."""
+    grade = next((own["grade"] for own in ledger if own["entry"] == row["entry"]), "")
+    size = with_unit(float(f"{float(row['max']):.2g}"), row["unit"])
+    told = f"speeds up to {size} apart where it sticks first"
+    return words.sentence(f"{grade}: {told}" if grade else told)
 
 
 def _of_prints(verdicts: Sequence[Row]) -> str:

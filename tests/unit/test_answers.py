@@ -28,7 +28,7 @@ def test_measurements_are_told_by_their_verdicts_on_the_paper_s_model():
     ]
     assert told(verdicts)["Do measurements agree with the model?"].told == [
         "Agrees: Kharaz 2001 in part",
-        "Differs: Cornell 1999 (materials, e < 1)",
+        "Differs: Cornell 1999 (pairs of materials)",
         "Cannot tell: Mine 2026",
         "Cannot be judged, no scatter published: Kharaz 2001 in part",
     ]
@@ -51,7 +51,7 @@ def test_errors_that_change_the_same_result_are_one_row_and_are_all_counted():
         ("angle", ["angle"]),
     ]
     right = found["Are the paper's statements right, by its own model?"].told
-    assert right == ["1 of 5 are (1 if a condition is added), 3 are not, 1 cannot be tested"]
+    assert right == ["1 of 5 are, 1 of these if a condition is added; 3 are not; 1 not testable"]
     lines = answers.text([grave]).splitlines()
     assert lines[1:] == [
         "  3 statements:  printed  by the model",

@@ -69,7 +69,7 @@ def told(wrong=(), ledger=(ENTRY,), figures=("fig6", "fig7"), **cells):
 def test_a_passed_run_says_where_to_look_and_what_next():
     said = told()
     assert "Do measurements agree with the model?\n  Agrees: A\n" in said
-    assert "\n  0 of 1 are (0 if a condition is added), 1 are not, 0 cannot be tested\n" in said
+    assert "\n  0 of 1 are, 0 of these if a condition is added; 1 are not; 0 not testable\n" in said
     assert "PASSED: every result is as accepted, known differences included." in said
     for path in ("figures/your_copy.html", "figures/report.html", "results/verdicts.txt"):
         assert path in said

@@ -505,7 +505,7 @@ entry(
     verdict="wrong",
     grade="changes a result",
     cause="peak-angle",
-    quantity="friction is largest (mu = 0.18)",
+    quantity="friction is largest, mu 0.18",
     values=lambda angle: ("at about 35 deg", f"at {angle:.3g} deg"),
     explorer={"angle": 27.8, "friction": 0.18, "restitution": 1, "view": "forces"},
     correction=r"For $\mu = 0.18$ friction is largest at 27.8°",

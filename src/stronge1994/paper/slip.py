@@ -145,7 +145,7 @@ def regime_boundary(groups: tuple[float, float], e: float) -> float:
     verdict="wrong",
     grade="changes a result",
     cause="slip-limit",
-    quantity="slip throughout from (e = 1 and 0.5)",
+    quantity="slip throughout from, e 1 and 0.5",
     values=limits_of_slip,
     explorer={"angle": 72.6, "friction": 0.5, "restitution": 1, "view": "velocity"},
     correction=r"Slip throughout begins at $m_2/m_1 + \mathrm{max}(0, e m_2/m_1 - \zeta^2/e)$, but "
