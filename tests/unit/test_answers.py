@@ -34,6 +34,17 @@ def test_measurements_are_told_by_their_verdicts_on_the_paper_s_model():
     ]
 
 
+def test_printed_curves_are_counted_but_no_ratio_of_two():
+    curves = ["agrees", "not compared", "differs", "not compared", "agrees", "FAILS"]
+    prints = [row(group="printed figure", curve="lumped", verdict=one) for one in curves]
+    prints.append(row(group="printed figure", verdict="FAILS"))  # a ratio
+    asked = "Are our curves the printed ones?"
+    (found,) = told(prints)[asked].told
+    assert found == "4 of 6 were compared: agrees 2, differs 1, FAILS 1"
+    for rows in (prints[1:2], prints[-1:]):
+        assert told(rows)[asked].told[0].startswith("Not known: ")
+
+
 def test_errors_that_change_the_same_result_are_one_row_and_are_all_counted():
     energy = {"quantity": "energy lost", "printed": "none", "by model": "off by 1 J"}
     ledger = [

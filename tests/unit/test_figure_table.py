@@ -86,7 +86,7 @@ Fig. 6  rebound
 
 
 def test_the_table_says_what_every_comparison_has_found():
-    """Of the paper the largest distance, of points the rms; of other models only what fails."""
+    """Of the paper the largest distance, of points the rms; of other models whether they agree."""
     rows = [
         dict.fromkeys(verdict_table.COLUMNS, "")
         | {"figure": figure, "group": group, "verdict": verdict, **SIZES, **cells}
@@ -98,6 +98,16 @@ def test_the_table_says_what_every_comparison_has_found():
     assert table[2].others[0].rows == ["fig7-20"]
     assert table[1].paper[1].entry == "eq-15"
     assert figure_table.counted(rows[:6]) == "passed 3, agrees 2, differs 1"
+
+
+def test_of_statements_that_say_the_same_the_worst_gives_the_verdict():
+    cells = dict.fromkeys(verdict_table.COLUMNS, "") | STATED | {"figure": "fig6", "group": PAPER}
+    rows = [
+        cells | {"verdict": verdict, "comparison": f"{place}"}
+        for place, verdict in enumerate(("agrees", "differs"))
+    ]
+    (row,) = figure_table.of_run(rows, {"fig6": "rebound"}, {})
+    assert [(item.verdict, item.rows) for item in row.paper] == [("differs", ["1", "0"])]
 
 
 def test_printed_curves_that_were_read_stand_first_the_worst_on_top():

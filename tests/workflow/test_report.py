@@ -78,6 +78,20 @@ def test_its_answers_are_those_of_the_run(pages, rows_of):
             assert flat(mathematical(with_units(said))) in flat(told), said
 
 
+def test_what_is_said_of_five_models_below_e_1_is_so(rows_of):
+    """In src/README.md, in the reasons of comparisons, and in the report."""
+    rows = {row["comparison"]: row for row in rows_of("verdicts")}
+    assert rows["inelastic-lumped.hysteretic-pairs"]["verdict"] == "differs"
+    assert rows["inelastic-continuum.viscous-pairs"]["verdict"] == "cannot tell"
+    rms_of = {
+        name: float(row["rms"])
+        for name, row in rows.items()
+        if re.fullmatch("rubber_sphere-.*-impacts", name)
+    }
+    nearest = min(rms_of, key=rms_of.get)
+    assert len(rms_of) == 5 and nearest == "rubber_sphere-lumped.hysteretic-impacts"
+
+
 def test_the_contact_sheet_names_the_largest_difference_of_a_figure(pages):
     sheet = pages("report").partition('<ul class="sheet">')[2].split("</ul>")[0]
     told = {
