@@ -1,8 +1,8 @@
 """The table for a reader: of each figure what agrees with what, and what does not.
 
 It has the printed curves, what the paper states, and what others measured or computed. Of these the
-paper's model is told, and of other models only whether they agree. The checks of our solver have a
-line.
+paper's model is told, and of other models only whether they agree. The checks of our solver are not
+in it.
 """
 
 import textwrap

@@ -8,11 +8,11 @@ from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
 
 MOST_FAULTS = 8  # that are told at the end; the tables have all
-PASSED = """\
+BY_FIGURE = "By figure: results/verdicts.txt"
+PASSED = f"""\
 PASSED: every result is as accepted, known differences included.
 This does not mean that the paper is right.
-Look: figures/report.html in a browser. By figure: results/verdicts.txt"""
-BY_FIGURE = "By figure: results/verdicts.txt"
+Look: figures/report.html in a browser. {BY_FIGURE}"""
 UNMADE = (
     "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "
     "({}). To draw without judging, with your --config: snakemake --cores 2 figures"

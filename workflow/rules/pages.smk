@@ -36,7 +36,7 @@ rule report:
         # A function, as Snakemake takes braces in a text for a wildcard: those of formulas.
         settings=lambda _: {
             "config": config,
-            "shows": {name: stated["shows"] for name, stated in figures.stated().items()},
+            "shows": SHOWS,
             "captions": {name: stated["caption"] for name, stated in figures.stated().items()},
             "slides": SLIDES,
             "sources": SOURCES,

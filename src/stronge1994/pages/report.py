@@ -223,8 +223,8 @@ def write(
     ledger = tables.read_rows(given.ledger)
     curves = {Path(path).stem: path for path in given.curves}
     trade = tables.read(curves["trade"])
-    answers = which_model.answers(trade)
-    answers.to_csv(made.which_model, index=False, lineterminator="\n")
+    fastest = which_model.answers(trade)
+    fastest.to_csv(made.which_model, index=False, lineterminator="\n")
     copied = [given.verdicts, made.which_model, *given.curves, *given.residuals]
     copy_tables(made.tables, copied)
     pictures = {Path(path).stem: Path(path).read_bytes() for path in given.pictures}
@@ -246,7 +246,7 @@ def write(
         "captions": {
             name: (templates.SHARED / f"{name}.rst").read_text("utf-8").strip() for name in SECTIONS
         },
-        "cases": which_model.cases(answers, trade),
+        "cases": which_model.cases(fastest, trade),
         "significance": config["significance"],
         "doubt": DOUBT * config["significance"],
         "commit": versions.commit("."),

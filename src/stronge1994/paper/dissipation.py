@@ -4,6 +4,7 @@ Distances of Eqs 38 to 41 are over m1 v1(0)^2/2, the tangential kinetic energy a
 """
 
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -44,6 +45,13 @@ def friction_takes(angle: float) -> tuple[str, str]:
     impact, share = (np.tan(theta) / mu, *contact.SPHERE, 1.0), 2 * (mu * np.cos(theta)) ** 2
     printed, own = as_printed.rebound(*impact)[2][0], float(lumped.rebound(*impact).dissipation)
     return f"{share * printed:.2g} m2 S^2/2", f"{share * own:.2g} m2 S^2/2"
+
+
+# What Eqs 38 and 39 change: one is the integral of the other. At 30 deg the contact sticks first.
+AFTER_STICK: dict[str, Any] = {
+    "quantity": "Eqs 38, 39: energy, 30 deg, mu 0.5, e 1",
+    "values": lambda _: friction_takes(30.0),
+}
 
 
 def _normal(impact: Contact) -> float:
@@ -103,8 +111,7 @@ def eq_38(c: Contact, impulse_left: Numbers, sign: int) -> Numbers:
     verdict="wrong",
     grade="changes a result",
     cause="strain-energy",
-    quantity="Eqs 38, 39: energy, 30 deg, mu 0.5, e 1",
-    values=lambda _: friction_takes(30.0),
+    **AFTER_STICK,
     correction="In Eq. 38 the direction $s$ takes the sign of the last slip, and the tangential "
     r"strain energy at $t_1$, $(\kappa/\zeta^2) u_1(t_1)^2/2$, is added",
     derivation="Friction acts on the particle, which slides with $v_1 + du_1/dt$. So $D_1$ is "
@@ -139,8 +146,7 @@ def friction_after_stick(impact: Contact) -> tuple[ArrayLike, float]:
     verdict="wrong",
     grade="changes a result",
     cause="strain-energy",
-    quantity="Eqs 38, 39: energy, 30 deg, mu 0.5, e 1",
-    values=lambda _: friction_takes(30.0),
+    **AFTER_STICK,
     explorer={"angle": 14, "friction": 0.5, "restitution": 1, "view": "energy"},
     correction=r"In Eq. 39 the product $s g_1$ takes the place of $g_1$, and $\mu^2 "
     r"\zeta^2\,\sin^2(\alpha)$, with $\alpha$ at $t_1$, is added",
