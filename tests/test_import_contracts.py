@@ -28,7 +28,7 @@ SOLVER = {
     "models": "common normal_impact rigid lumped continuum spheres",
     "export": "planarimpact common normal_impact collision spheres",
     "fit": "common normal_impact bodies continuum spheres models",
-    "collision": "common normal_impact bodies continuum spheres",
+    "collision": "common normal_impact bodies lumped noncollinear continuum spheres models",
     "scene": "common bodies collision pandas",
     "__init__": (
         "planarimpact common normal_impact rigid lumped continuum bodies noncollinear spheres"
@@ -87,10 +87,12 @@ PUBLIC_MODULES = {
     "normal_impact.hertz",
     "normal_impact.kelvin_voigt",
     "normal_impact.yielding",
+    "lumped.one_impact",  # in floats
     "models.laws",
     "models.timestep",
     "noncollinear.rigid",
-    "collision.mechanics",  # these three solve scenes
+    "collision.facts",  # these four solve scenes
+    "collision.mechanics",
     "collision.model_form",
     "collision.methods",
     "collision.presets",

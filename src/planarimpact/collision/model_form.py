@@ -22,6 +22,7 @@ TOLERANCE = 1e-2
 def model_forms(impacts: Impacts, place: Integers, velocity: Array) -> Array:
     """How far the velocity of `Answers` would move with the other loss [m/s], NaN if not known."""
     form, unit = np.zeros(impacts.v1.size), impacts.unit
+    form[(place == methods.ASKED) & (impacts.loss_code >= 0)] = np.nan
     viscous = (place == methods.SLIDING) & (impacts.loss_code == CODES[VISCOUS])
     form[viscous] = np.nan
     rows = np.flatnonzero(viscous & (impacts.restitution >= continuum.LEAST_RESTITUTION))

@@ -5,21 +5,27 @@ They answer what is left to them here: a bad argument, no approach, no friction,
 the rule of sizes, and an impact that the table of spheres does not answer within the tolerance.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import inf, nan, sqrt
 from typing import Any
 
 import numpy as np
 
-from planarimpact import bodies, spheres
+from planarimpact import bodies, models, spheres
 from planarimpact.bodies import Body
-from planarimpact.collision.mechanics import cross, dot
-from planarimpact.collision.methods import table_error
+from planarimpact.collision.facts import Facts
+from planarimpact.collision.mechanics import Impacts, cross, dot
+from planarimpact.collision.methods import ASKED, METHODS, SLIDING, table_error
 from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks, losses
+from planarimpact.common.arrays import Integers
 from planarimpact.common.checks import LARGEST, LARGEST_RATIO, LEAST, LEAST_RATIO
 from planarimpact.common.results import Regime
+from planarimpact.lumped import one_impact
+from planarimpact.models import Model
 from planarimpact.normal_impact import kelvin_voigt, yielding
 from planarimpact.spheres import table
 
@@ -27,10 +33,57 @@ from planarimpact.spheres import table
 # Within it the functions of arrays know better.
 UNSURE = 0.01
 PLASTIC, NONE = losses.CODES[losses.PLASTIC], np.array(-1, np.int8)
+# Places of the table of spheres by the code of the loss.
+TABLED = [
+    next(i for i, method in enumerate(METHODS) if method.way == "table" and method.loss is loss)
+    for loss in (*losses.SPHERES.values(), None)
+]
+# Models with a way of their own here, and codes of losses by name.
+RIGID = models.MODELS["rigid"]
+LUMPED = [models.MODELS[f"lumped.{name}"] for name in ("hysteretic", "unloading-stiffness")]
+BY_MODEL = [RIGID, *LUMPED]
+CODES = {name: np.array(code, np.int8) for code, name in enumerate(losses.BY_NAME)}
+
+
+def facts(
+    pair: Pair,
+    asked: str,
+    place: int,
+    v1: float,
+    v2: float,
+    m2: float,
+    mass_ratio: float,
+    restitution: float,
+    loss_code: Integers,
+    change: float,
+    regime: Regime,
+) -> Facts:
+    """Facts of one impact; the other loss is answered like this one."""
+    numbers = np.array([[v1], [v2], [restitution], [m2], [mass_ratio]])
+    mu, zeta2, dundurs = pair.friction[None], pair.stiffness_ratio[None], pair.dundurs[None]
+    given = [*numbers[:2], mu, numbers[2], loss_code[None], *numbers[3:], zeta2, dundurs]
+    impacts = Impacts._make([None] * 6 + given)
+    form = None
+    if restitution < 1 and not asked:
+        groups = mass_ratio, float(pair.stiffness_ratio), restitution
+        other = _answer(v1, float(pair.friction) * v2, *groups, loss_code != PLASTIC, inf)
+        form = np.array(abs(other[0] - change)) if other else None
+    answer = np.array([place]), np.array([change]), numbers[0] + change, np.array([regime])
+    return Facts(_only, impacts, *answer, asked, form=form)
+
+
+def _only(values: Any, _: Any) -> Any:
+    """The only one of several values, in the last axis."""
+    return values[..., 0]
 
 
 def collide(
-    pair: Pair, body: Body, other: Body, vectors: list[list[float]], tolerance: float
+    pair: Pair,
+    body: Body,
+    other: Body,
+    vectors: list[list[float]],
+    tolerance: float,
+    model: Model | None = None,
 ) -> list[Any]:
     """Fields of the Collision of one impact, or [] where the functions of arrays must see it.
 
@@ -59,7 +112,8 @@ def collide(
         return []
     m2 = 1 / (inverse + other_inverse)
     beta = m2 * (mobility + other_mobility)
-    plastic = int(pair.loss_code) == PLASTIC
+    code = int(pair.loss_code)
+    plastic = code == PLASTIC
     if e != e:
         curvature = (1 / radius if radius else 0.0) + (1 / other_radius if other_radius else 0.0)
         if not curvature:
@@ -70,10 +124,19 @@ def collide(
         else:
             e = _viscous_restitution(*quantities, v2, relaxation_time)
     unit = mu * v2
-    answer = _answer(v1, unit, beta, zeta2, e, plastic and e < 1, tolerance)
+    loss_code = pair.loss_code if e < 1 else NONE
+    if model:
+        answer, place, asked = _by_model(model, v1, unit, beta, zeta2, e), ASKED, model.name
+        loss_code = CODES.get(model.loss, loss_code) if e < 1 else NONE
+    elif code > PLASTIC:  # the continuum has no such loss
+        return []
+    else:
+        answer = _answer(v1, unit, beta, zeta2, e, plastic and e < 1, tolerance)
     if not answer:
         return []
     change, error, regime = answer
+    if not model:
+        place, asked = TABLED[int(loss_code)] if error else SLIDING, ""
     push = [(1 + e) * v2 * m2 * component for component in normal]
     impulse = _sum(push, change / beta / v1 * m2, tangential)
     moment = cross(normal, impulse)
@@ -84,8 +147,9 @@ def collide(
         _sum(other_spin, -other_turn, moment),
         impulse,
     )
-    loss_code = pair.loss_code if e < 1 else NONE
-    return [*np.array(after), *np.array((v1 / unit, e, error * unit)), regime, loss_code]
+    known = pair, asked, place, v1, v2, m2, beta, e, loss_code, change, regime
+    numbers = np.array((v1 / unit, e, error * unit))
+    return [*np.array(after), *numbers, regime, loss_code, partial(facts, *known)]
 
 
 def _plastic_restitution(
@@ -132,6 +196,26 @@ def _answer(
         return None
     w = min(max(share * zeta2, -x, x - (1 + e) * beta), x) * unit
     return w - v1, error, Regime.SLIP_STICK_SLIP if x > zeta2 else Regime.STICK_SLIP
+
+
+def _by_model(
+    model: Model, v1: float, unit: float, beta: float, zeta2: float, e: float
+) -> tuple[float, float, Regime] | None:
+    """As `_answer`, by a model that was asked for; the error is not known."""
+    x = v1 / unit
+    if x > LARGEST or not model.restitution[0] <= e:
+        return None
+    if model is RIGID:
+        if x / beta >= 1 + e:
+            return -(1 + e) * beta * unit, nan, Regime.SLIP_THROUGHOUT
+        return -v1, nan, Regime.SLIP_STICK
+    if model in LUMPED:
+        found = one_impact.rebound(losses.LUMPED[model.loss], x, beta, zeta2, e)
+        if found:
+            slides = found[3] is Regime.SLIP_THROUGHOUT
+            change = -(1 + e) * beta * unit if slides else found[0] * unit - v1
+            return change, nan, found[3]
+    return None
 
 
 @lru_cache(maxsize=4096)

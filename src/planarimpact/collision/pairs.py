@@ -12,13 +12,13 @@ from planarimpact.bodies import Material
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Integers
 from planarimpact.common.checks import InputError
-from planarimpact.common.losses import CODES, NAMES, SPHERES
+from planarimpact.common.losses import BY_NAME, CODES, NAMES, SPHERES
 
 # What gives the restitution, and the loss that comes with it: the restitution itself, or a property
 # of the materials that gives it at the speed of each impact.
 RESTITUTION_FROM = {"restitution": ""} | {loss.material: name for name, loss in SPHERES.items()}
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *RESTITUTION_FROM)
-_ARRAYS = (*_FIELDS, "loss_code")
+_ARRAYS = (*_FIELDS, "dundurs", "loss_code")
 
 
 class Pair:
@@ -39,7 +39,8 @@ class Pair:
         [Pa], of materials that yield, see `bodies.plastic_restitution`: e follows from the speed.
     loss : str or array_like of str, optional
         What takes the energy where `restitution` is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield). An empty text, None or NaN in an array means none.
+        "plastic" (metals that yield); or "hysteretic" (the paper's) or "unloading-stiffness", for
+        `collide` with such a model. An empty text, None or NaN in an array means none.
     stiffness_ratio : array_like, optional
         zeta^2, normal over tangential stiffness, where there are no materials.
     effective_modulus : array_like, optional
@@ -49,6 +50,8 @@ class Pair:
     ----------
     friction, stiffness_ratio, effective_modulus, restitution, relaxation_time, yield_pressure
         As above, arrays of one shape; NaN where the pair does not have it.
+    dundurs : ndarray
+        Size of Dundurs' constant, see `bodies.dundurs`; NaN where there are no materials.
     loss, loss_code : ndarray of str, ndarray of int
         Name of the loss, and its place in `planarimpact.common.losses.NAMES`; "none" and -1 where
         none is said.
@@ -88,6 +91,7 @@ class Pair:
     restitution: Array
     relaxation_time: Array
     yield_pressure: Array
+    dundurs: Array
     loss_code: Integers
     floats: tuple[float, ...]  # the fields but `loss_code`, if they are plain numbers of one pair
     __slots__ = (*_ARRAYS, "floats")
@@ -115,7 +119,7 @@ class Pair:
         stiffness = _stiffness(materials, stiffness_ratio, effective_modulus)
         mu = checks.not_negative("friction", friction)
         named: dict[str, Any] = {"friction": mu, **stiffness, **laws}
-        named["loss_code"] = checks.losses(loss, SPHERES)
+        named["loss_code"] = checks.losses(loss, BY_NAME)
         arrays: dict[str, Any] = dict(zip(named, checks.broadcast(**named), strict=True))
         _refuse_other_laws(arrays)
         arrays["loss_code"] = _of_law(arrays)
@@ -200,11 +204,13 @@ def _stiffness(
         return {
             "stiffness_ratio": bodies.stiffness_ratio(*materials),
             "effective_modulus": bodies.effective_modulus(*materials),
+            "dundurs": np.abs(bodies.dundurs(*materials)),
         }
     known = np.nan if modulus is None else checks.positive("effective_modulus", modulus)
     return {
         "stiffness_ratio": checks.stiffness_ratio(ratio if ratio is not None else np.nan),
         "effective_modulus": np.asarray(known),
+        "dundurs": np.array(np.nan),
     }
 
 
