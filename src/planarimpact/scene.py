@@ -57,7 +57,7 @@ LABEL = "id"
 # A name as similar as this to one that is known is a misspelling.
 CLOSE = 0.8
 # Names of cautions by their sums.
-CAUTIONS = ["", *(str(Caution(code).name) for code in range(1, sum(Caution) + 1))]
+CAUTIONS = ["none", *(str(Caution(code).name) for code in range(1, sum(Caution) + 1))]
 # Of cells for which there is no header; headers have no line breaks.
 MORE = "\n"
 POINT = "; commas separate cells, and decimals have a point"
@@ -140,7 +140,7 @@ def _model(solved: Solved) -> Any:
 
 
 def _caution(solved: Solved) -> Any:
-    """Names of cautions by their sums, an empty text where there is none."""
+    """Names of cautions by their sums."""
     return _words(solved.caution, CAUTIONS)
 
 

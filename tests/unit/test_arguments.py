@@ -142,6 +142,7 @@ ARGUMENTS = {
 VECTORS = {"normal": ("vector", [0, 0, 1]), "other": ("record", BALL)}
 VECTORS |= dict.fromkeys(("spin", "other_velocity", "other_spin"), ("vector", [0.0, 0.0, 0.0]))
 VECTORS |= {"velocity": ("vector", [1.0, 0.0, -1.0])}
+VECTORS |= dict.fromkeys(("offset", "other_offset"), ("vector", None))
 MOTION = {"normal": ("finite", 1.0)}
 OTHER_BODY, OTHER_MATERIAL = {"other": ("record", BALL)}, {"other": ("record", STEEL)}
 OF_LAW = {"restitution": ("of a law", 0.8)}
@@ -185,7 +186,7 @@ OTHERWISE = {
     rigid_noncollinear.rebound: {"friction": ("from 0", 0.5), "law": ("word", "energetic")},
 }
 # Settings and switches, and arguments of any number.
-LEFT_OUT = {"settings", "materials", "forces"}
+LEFT_OUT = {"settings", "materials", "forces", "solve"}
 # Of arrays that are checked.
 UNCHECKED = {spheres.error_bound}
 DOORS = bodies, collision, continuum, fit, lumped, models, laws, noncollinear, rigid_noncollinear

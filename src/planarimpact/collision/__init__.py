@@ -227,7 +227,7 @@ def collide(
 
     >>> arguments = rubber, [0, 0, 1], ball, [2.0, 0, -4.0], [0, -300.0, 0]
     >>> collide(*arguments, model="lumped.hysteretic").velocity.round(2).tolist()
-    [-2.87, 0.0, 3.6]
+    [-2.47, 0.0, 3.6]
     """
     vectors = normal, velocity, spin, other_velocity, other_spin
     _refuse_types(pair, body, other)
@@ -306,7 +306,17 @@ def _collide_arrays(
     numbers = Impacts._make([None] * 6 + [*met[6:]])  # in less memory, also where it is pickled
     name = model.name if model else "noncollinear" if plane else ""
     micro_slip = model is not None and methods.has_micro_slip(model)
-    facts = partial(Facts, whole, numbers, *answer[:3], answer.regime, name, micro_slip, energies)
+    facts = partial(
+        Facts,
+        whole,
+        numbers,
+        answer.place.astype(np.int8),
+        answer.change,
+        answer.regime,
+        name,
+        micro_slip,
+        energies,
+    )
     return _collision(given, met, answer, states, whole, facts)
 
 

@@ -32,7 +32,7 @@ class Facts(NamedTuple):
         Of values, shape (n,), and a value where bodies do not approach: in the shape of arguments.
     impacts : Impacts
         It needs no vectors.
-    place, change, velocity, regime : ndarray, shape (n,)
+    place, change, regime : ndarray, shape (n,)
         As in `methods.Answers`.
     asked : str
         Name of the model that was asked for, or an empty text.
@@ -48,7 +48,6 @@ class Facts(NamedTuple):
     impacts: Impacts
     place: Integers
     change: Array
-    velocity: Array
     regime: Integers
     asked: str = ""
     micro_slip: bool = False
@@ -63,7 +62,9 @@ class Facts(NamedTuple):
         """How far the velocity of the contact point would move with the other loss [m/s]."""
         if self.form is not None:
             return self.form
-        return self.whole(model_forms(self.impacts, self.place, self.velocity), np.nan)
+        return self.whole(
+            model_forms(self.impacts, self.place, self.impacts.v1 + self.change), np.nan
+        )
 
     def caution(self) -> Any:
         """Codes of `Caution`."""

@@ -68,7 +68,7 @@ def facts(
         groups = mass_ratio, float(pair.stiffness_ratio), restitution
         other = _answer(v1, float(pair.friction) * v2, *groups, loss_code != PLASTIC, inf)
         form = np.array(abs(other[0] - change)) if other else None
-    answer = np.array([place]), np.array([change]), numbers[0] + change, np.array([regime])
+    answer = np.array([place]), np.array([change]), np.array([regime])
     return Facts(_only, impacts, *answer, asked, form=form)
 
 
