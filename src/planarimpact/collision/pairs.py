@@ -12,7 +12,7 @@ from planarimpact.bodies import Material
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Integers
 from planarimpact.common.checks import InputError
-from planarimpact.common.losses import CODES, NAMES, SPHERES
+from planarimpact.common.losses import CODES, NAMES, SPHERES, SpheresLosses
 
 # What gives the restitution, and the loss that comes with it: the restitution itself, or a property
 # of the materials that gives it at the speed of each impact.
@@ -99,7 +99,7 @@ class Pair:
         restitution: ArrayLike | None = None,
         relaxation_time: ArrayLike | None = None,
         yield_pressure: ArrayLike | None = None,
-        loss: str | ArrayLike | None = None,
+        loss: SpheresLosses | None = None,
         stiffness_ratio: ArrayLike | None = None,
         effective_modulus: ArrayLike | None = None,
     ) -> None:
