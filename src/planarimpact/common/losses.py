@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 LumpedLoss: TypeAlias = Literal["hysteretic", "unloading-stiffness", "viscous"]
 NoncollinearLoss: TypeAlias = Literal["hysteretic", "unloading-stiffness"]
 SpheresLoss: TypeAlias = Literal["viscous", "plastic"]
-SpheresLosses: TypeAlias = SpheresLoss | Sequence[SpheresLoss | None] | NDArray[Any]
+SpheresLosses: TypeAlias = SpheresLoss | Sequence[SpheresLoss | Literal[""] | None] | NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
