@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from planarimpact import (
     __version__,
@@ -20,7 +21,6 @@ from planarimpact import (
 )
 from planarimpact import scene as tables
 from planarimpact.common import checks
-from planarimpact.common.arrays import ArrayLike
 from planarimpact.common.results import Regime
 
 ABOUT = """
@@ -105,7 +105,7 @@ def _rebound(options: argparse.Namespace) -> None:
     model, settings = models.get(options.model), dict(options.setting)
     model.refuse_others(settings)
     result = models.rebound(model, x, **_groups(options), **settings)
-    fields = result._replace(regime=Regime.names(result.regime))._asdict()
+    fields = {**result._asdict(), "regime": Regime.names(result.regime)}
     columns = {
         f"{name} [{unit}]" if unit else name: fields[name]
         for name, unit in UNITS.items()

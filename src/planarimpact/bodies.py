@@ -80,7 +80,7 @@ from planarimpact.common.checks import (
     not_negative,
     positive,
 )
-from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
+from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS, SpheresLoss
 from planarimpact.common.records import record
 from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt, yielding
 
@@ -792,7 +792,7 @@ def peak_force(
     effective_modulus: ArrayLike,
     speed: ArrayLike,
     restitution: ArrayLike,
-    loss: str,
+    loss: SpheresLoss,
 ) -> Array:
     """Peak normal force [N] of spheres that lose normal energy.
 

@@ -89,7 +89,7 @@ class Collision:
     incidence: Array
     restitution: Array
     error_bound: Array
-    regime: Any
+    regime: Regime | Integers
     loss_code: Integers
     # Gives the rest, when it is asked for; as partial functions can be pickled.
     _facts: Callable[[], Facts] = field(repr=False)

@@ -157,7 +157,8 @@ def _rebound(
         return noncollinear.rigid.rebound(v1, v2, inverse_mass, mu, e)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        return noncollinear.rebound(v1, v2, inverse_mass, mu, e, zeta2, loss=model.loss)
+        loss: Any = model.loss  # one of NONCOLLINEAR
+        return noncollinear.rebound(v1, v2, inverse_mass, mu, e, zeta2, loss=loss)
 
 
 def after(impacts: Impacts, plane: Plane, impulses: Array) -> tuple[State, State, Array]:

@@ -12,7 +12,14 @@ from planarimpact.bodies import Material
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Integers
 from planarimpact.common.checks import InputError
-from planarimpact.common.losses import BY_NAME, CODES, NAMES, SPHERES
+from planarimpact.common.losses import (
+    BY_NAME,
+    CODES,
+    NAMES,
+    SPHERES,
+    LumpedLoss,
+    SpheresLosses,
+)
 
 # What gives the restitution, and the loss that comes with it: the restitution itself, or a property
 # of the materials that gives it at the speed of each impact.
@@ -103,7 +110,7 @@ class Pair:
         restitution: ArrayLike | None = None,
         relaxation_time: ArrayLike | None = None,
         yield_pressure: ArrayLike | None = None,
-        loss: str | ArrayLike | None = None,
+        loss: SpheresLosses | LumpedLoss | None = None,
         stiffness_ratio: ArrayLike | None = None,
         effective_modulus: ArrayLike | None = None,
     ) -> None:

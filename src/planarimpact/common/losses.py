@@ -7,11 +7,18 @@ A new loss of the lumped model is a new row. One of the continuum needs a motion
 `planarimpact.continuum.inelastic`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
+
+# The names in `LUMPED`, `NONCOLLINEAR` and `SPHERES`, for type checkers.
+LumpedLoss: TypeAlias = Literal["hysteretic", "unloading-stiffness", "viscous"]
+NoncollinearLoss: TypeAlias = Literal["hysteretic", "unloading-stiffness"]
+SpheresLoss: TypeAlias = Literal["viscous", "plastic"]
+SpheresLosses: TypeAlias = SpheresLoss | Sequence[SpheresLoss | Literal[""] | None] | NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +51,7 @@ class Loss:
     """
 
     model: str
-    name: str
+    name: Any  # one of the names above
     valid: str
     source: str
     least_restitution: float = 0.0

@@ -26,8 +26,8 @@ import numpy as np
 
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
-from planarimpact.common.losses import LUMPED
-from planarimpact.common.results import History, Rebound
+from planarimpact.common.losses import LUMPED, LumpedLoss
+from planarimpact.common.results import History, Rebound, of_groups
 from planarimpact.lumped import by_loss
 from planarimpact.lumped.stick_slip import Impacts
 
@@ -35,14 +35,14 @@ from planarimpact.lumped.stick_slip import Impacts
 LOSSES = tuple(LUMPED)
 
 
-@checks.default_errors
+@of_groups
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str = "hysteretic",
+    loss: LumpedLoss = "hysteretic",
 ) -> Rebound:
     """State at separation; all arguments broadcast.
 
@@ -118,7 +118,7 @@ def slip_throughout_limit(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str = "hysteretic",
+    loss: LumpedLoss = "hysteretic",
 ) -> Array:
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
@@ -157,7 +157,7 @@ def history(
     restitution: float = 1.0,
     samples: int = 400,
     *,
-    loss: str = "hysteretic",
+    loss: LumpedLoss = "hysteretic",
 ) -> History:
     """Forces and velocity over one contact (Figs 3 and 4).
 
@@ -195,7 +195,7 @@ def friction_work(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str = "hysteretic",
+    loss: LumpedLoss = "hysteretic",
 ) -> Array:
     """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
 

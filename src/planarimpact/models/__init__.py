@@ -19,6 +19,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -70,7 +71,7 @@ class Model:
     """
 
     name: str
-    rebound: Callable[..., Rebound]
+    rebound: Callable[..., Rebound[Any, Any, Any]]
     settings: dict[str, float] = field(default_factory=dict)
     cost: str = "formula"
     restitution: tuple[float, float] = (0.0, 1.0)
@@ -109,7 +110,7 @@ def rebound(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     **settings: float,
-) -> Rebound:
+) -> Rebound[Any, Any, Any]:
     """State at separation by the model of a name. Arguments and errors: `planarimpact.models`.
 
     Examples

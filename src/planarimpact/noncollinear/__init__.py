@@ -32,7 +32,7 @@ from planarimpact.common.checks import (
     finite,
     positive,
 )
-from planarimpact.common.losses import NONCOLLINEAR
+from planarimpact.common.losses import NONCOLLINEAR, NoncollinearLoss
 from planarimpact.common.records import record
 from planarimpact.common.results import Regime
 from planarimpact.noncollinear import rigid
@@ -106,7 +106,7 @@ class NoncollinearRebound(NamedTuple):
     friction_work: Array
     hysteresis: Array
     duration: Array
-    regime: Any  # as in Rebound
+    regime: Integers | Regime
     jams: Booleans
 
 
@@ -120,7 +120,7 @@ def rebound(
     stiffness_ratio: ArrayLike = 1.21,
     stiffness: ArrayLike = 1.0,
     *,
-    loss: str | None = None,
+    loss: NoncollinearLoss | None = None,
 ) -> NoncollinearRebound:
     """State at separation; all arguments broadcast.
 
@@ -238,7 +238,7 @@ def history(
     stiffness: float = 1.0,
     samples: int = 400,
     *,
-    loss: str | None = None,
+    loss: NoncollinearLoss | None = None,
 ) -> NoncollinearHistory:
     """Forces and velocities over one contact.
 

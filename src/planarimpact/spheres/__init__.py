@@ -13,8 +13,8 @@ import numpy as np
 
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.common.losses import CODES, PLASTIC, SPHERES
-from planarimpact.common.results import Rebound, Regime
+from planarimpact.common.losses import CODES, PLASTIC, SPHERES, SpheresLosses
+from planarimpact.common.results import Rebound, Regime, of_groups
 from planarimpact.spheres import table
 
 # Names of the losses that spheres have.
@@ -96,14 +96,14 @@ def error_bound(
     return bound
 
 
-@checks.default_errors
+@of_groups
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str | ArrayLike | None = None,
+    loss: SpheresLosses | None = None,
     forces: bool = True,
 ) -> Rebound:
     """State at separation; all arguments broadcast, the loss too.

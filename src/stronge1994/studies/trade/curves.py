@@ -185,14 +185,14 @@ def _spline_of_continuum(groups: Mapping[str, Any], incidence_max: float) -> _So
     solved = continuum.rebound(knots, **groups, tolerance=SPLINE_TOLERANCE)
     spline = PchipInterpolator(knots, solved.velocity)
 
-    def rebound(x: Array) -> Rebound:
+    def rebound(x: Array) -> Rebound[Any, Any, Any]:
         unknown = np.full_like(x, np.nan)
         return Rebound(spline(x), unknown, unknown, unknown)
 
     return rebound
 
 
-def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: str) -> Rebound:
+def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: Any) -> Rebound:
     """What errors are measured against. The `loss`, viscous or plastic, has no meaning for e = 1.
 
     >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.5}
