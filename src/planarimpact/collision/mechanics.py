@@ -14,7 +14,7 @@ from planarimpact.bodies import Body
 from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, Booleans, Integers
-from planarimpact.common.losses import CODES, PLASTIC
+from planarimpact.common.losses import CODES, NAMES, PLASTIC, SPHERES
 from planarimpact.continuum import inelastic
 
 # Restitution at the speed of an impact, by the quantity of a pair that it follows from.
@@ -153,6 +153,12 @@ def problems(impacts: Impacts) -> dict[int, str]:
     if low.size:
         low = low[~slides_throughout(impacts.take(low))]
     messages = {}  # the last one of several problems counts
+    for i in np.flatnonzero(impacts.loss_code >= len(CODES)).tolist():
+        loss = NAMES[impacts.loss_code[i]]
+        messages[i] = (
+            f"loss = '{loss}': the continuum has no such loss; allowed are {' and '.join(SPHERES)}, "
+            f"or model = 'lumped.{loss}'"
+        )
     for i in np.flatnonzero(~(impacts.v2 > 0)).tolist():
         messages[i] = (
             f"normal velocity of approach = {impacts.v2[i]:g}: the bodies must approach each other"
