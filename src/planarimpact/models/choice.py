@@ -1,0 +1,199 @@
+"""Which model for a pair of materials: errors and times of every model that fits."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from planarimpact import bodies, continuum, models
+from planarimpact.bodies import Material
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array
+from planarimpact.common.losses import SPHERES
+
+if TYPE_CHECKING:  # only who wants a DataFrame needs it
+    import pandas as pd
+
+BETA = 3.5  # m2/m1 of a solid sphere, whatever the densities and sizes
+POINTS, COPIES = 33, 30  # incidences that are solved, and of those of a quick model in its array
+COLUMNS = (
+    "model",
+    "loss",
+    "speed_error [%]",
+    "tangential_error [%]",
+    "angle_error [deg]",
+    "time_alone [us]",
+    "time_in_array [us]",
+)
+
+
+def compare(
+    material: str | Material, on: str | Material | None = None, **more: Any
+) -> pd.DataFrame:
+    """The columns of `compared` as a DataFrame with the notes as `attrs["notes"]`; needs pandas.
+
+    Arguments and errors: `compared`.
+
+    Examples
+    --------
+    >>> table = compare("steel", "steel", friction=0.1, angle=(0, 60)).set_index("model")
+    >>> table["angle_error [deg]"][["continuum", "lumped", "rigid"]].round(1).tolist()
+    [0.0, 0.3, 1.9]
+    """
+    import pandas as pd
+
+    columns, notes = compared(material, on, **more)
+    table = pd.DataFrame(columns)
+    table.attrs["notes"] = notes
+    return table
+
+
+@checks.default_errors
+def compared(
+    material: str | Material,
+    on: str | Material | None = None,
+    *,
+    friction: float,
+    angle: Sequence[float] = (0, 80),
+    restitution: float | None = None,
+    loss: str | None = None,
+) -> tuple[dict[str, list[Any]], list[str]]:
+    """Errors and times of the models for a pair of materials, the nearest to the continuum first.
+
+    A solid sphere without spin strikes a body at rest. Errors are those of the motion of its centre
+    afterwards, against the continuum with the same restitution and loss. Each is the largest at 33
+    incidences, evenly over those in the range where not all models slip throughout. Densities,
+    sizes and speed change none. A model that refuses the pair is left out.
+
+    Parameters
+    ----------
+    material, on : str or Material
+        Of the sphere and of what it strikes: names of `materials()`, or moduli. Without `on` that
+        is a rigid body.
+    friction : float
+        Coefficient mu, above 0.
+    angle : (float, float)
+        Least and largest angle of incidence [degrees from the normal], 0 to 90.
+    restitution : float, optional
+        e, 0.1 to 1; needed if none is known of the softer material.
+    loss : str, optional
+        "viscous" or "plastic"; needed if the softer material has no name.
+
+    Returns
+    -------
+    columns : dict of str to list
+        model; loss; speed_error [%] and tangential_error [%], of the speed and of the velocity
+        along the surface, as shares of those of the continuum; angle_error [deg], of the angle of
+        rebound; time_alone [us] and time_in_array [us] of one impact, alone and among 990 (for the
+        continuum 33), measured on the spot. The continuum with the other loss has in its row what
+        that would change.
+    notes : list of str
+        What is compared, and where restitution and loss come from.
+
+    Raises
+    ------
+    InputError
+        If an argument is not allowed, or missing.
+
+    Examples
+    --------
+    >>> compared("nylon", "steel", friction=0.3)
+    Traceback (most recent call last):
+    ...
+    planarimpact.InputError: restitution: needed, as none is known here of nylon
+    """
+    roles = {"material": material} if on is None else {"material": material, "on": on}
+    pair = [_moduli(*one) for one in roles.items()]
+    mu = checks.number("friction", friction, "finite numbers above 0", 0, open_low=True)
+    rule = "two numbers from 0 to 90 degrees"
+    ends = checks.checked("angle", angle, rule, 0, 90)
+    if ends.shape != (2,):
+        raise checks.InputError(f"angle, shape {ends.shape}: allowed are {rule}")
+    softer = list(roles.values())[np.argmin([one.young_modulus for one in pair])]
+    known_e, source_of_e = _known("restitution", restitution, softer)
+    known_loss, source_of_loss = _known("loss", loss, softer)
+    least = continuum.LEAST_RESTITUTION
+    e = checks.number("restitution", known_e, f"numbers from {least:g} to 1", least, 1)
+    finest = f"continuum.{checks.loss(known_loss, SPHERES)}"
+    groups = BETA, float(bodies.stiffness_ratio(*pair)), e
+    limits = [float(continuum.slip_throughout_limit(*groups, loss=name)) for name in SPHERES]
+    end = max(*limits, sliding.change(BETA, e))
+    first, last = np.minimum(np.tan(np.radians(ends)) / mu, end)
+    x = np.linspace(first, last, POINTS)
+
+    def solved(name: str) -> tuple[list[Array], list[float]]:
+        """Speed and tangential velocity of the centre in v2(0), angle of rebound; both times."""
+        slow, times = name.startswith("continuum"), []
+        for incidences in (x[POINTS // 2], x if slow else np.tile(x, COPIES)):
+            taken = []
+            for _ in range(1 if slow else 3):
+                start = time.perf_counter()
+                velocity = models.rebound(name, incidences, *groups).velocity
+                taken.append(time.perf_counter() - start)
+            times.append(1e6 * min(taken) / incidences.size)
+        along = mu * (x + (velocity[:POINTS] - x) / BETA)
+        return [np.hypot(along, e), along, np.degrees(np.arctan2(along, e))], times
+
+    found = {finest: solved(finest)}
+    for name, model in models.MODELS.items():
+        if name != finest and model.restitution[0] <= e <= model.restitution[1]:
+            with suppress(checks.InputError, checks.ConvergenceError):  # it refuses the pair
+                found[name] = solved(name)
+    exact = found[finest][0]
+    units = [*(np.where(one == 0, 1.0, one) / 100 for one in exact[:2]), np.ones(POINTS)]
+    rows: list[tuple[Any, ...]] = []
+    for name, (motion, times) in found.items():
+        parts = zip(motion, exact, units, strict=True)
+        errors = [float(np.max(np.abs(one - other) / unit)) for one, other, unit in parts]
+        rows.append((name, models.get(name).loss or "none", *errors, *times))
+    rows.sort(key=lambda row: row[3])
+    cells = zip(COLUMNS, zip(*rows, strict=True), strict=True)
+    struck = f"{material} on {'a rigid body' if on is None else on}"
+    notes = [
+        f"{struck}: stiffness ratio {groups[1]:.3g}; restitution {e:g}, {source_of_e}; "
+        f"loss {known_loss}, {source_of_loss}",
+        "a solid sphere without spin; errors: the largest of the motion of its centre after the "
+        f"impact, against {finest}; the continuum with the other loss shows what that would change",
+    ]
+    return {name: list(values) for name, values in cells}, notes
+
+
+@cache
+def materials() -> dict[str, dict[str, dict[str, Any]]]:
+    """Materials by name: each value with its source.
+
+    Examples
+    --------
+    >>> materials()["alumina"]["restitution"]
+    {'value': 0.98, 'source': 'on soda-lime glass, at 3.9 m/s (data/kharaz2001)'}
+    """
+    import tomllib  # here, as most programs do without materials
+    from importlib import resources
+
+    text = resources.files(__package__).joinpath("materials.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)
+
+
+def _moduli(role: str, given: str | Material) -> Material:
+    """A material by its name, or as it is."""
+    if isinstance(given, Material):
+        for field, value in given._asdict().items():
+            checks.number(f"{role}.{field}", value, "one number")
+        return given
+    values = materials()[checks.word(role, given, materials())]
+    return Material(*(values[field]["value"] for field in Material._fields))
+
+
+def _known(name: str, given: Any, material: str | Material) -> tuple[Any, str]:
+    """A property of a pair and its source: as given, or as known of the softer material."""
+    if given is not None:
+        return given, "as given"
+    known = materials().get(material, {}) if isinstance(material, str) else {}
+    if name not in known:
+        raise checks.InputError(f"{name}: needed, as none is known here of {material}")
+    return known[name]["value"], known[name]["source"]
