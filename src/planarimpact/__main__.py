@@ -165,10 +165,7 @@ def _models(options: argparse.Namespace) -> None:
         moduli = {k: bodies.Material(*v) for k, v in given.items() if isinstance(v, tuple)}
         columns, notes = models.compared(**given | moduli)
         _tell("\n".join(notes))
-        shown = {
-            k: [f"{v:.3g}" if isinstance(v, float) else v for v in columns[k]] for k in columns
-        }
-        return _print(shown)
+        return _print({name: [*map(_short, cells)] for name, cells in columns.items()})
     rows = models.MODELS.values()
     _print(
         {
