@@ -163,7 +163,7 @@ def _models(options: argparse.Namespace) -> None:
         if not {"material", "friction"} <= given.keys():
             raise checks.InputError("--material, --friction: needed are both, or no option at all")
         moduli = {k: bodies.Material(*v) for k, v in given.items() if isinstance(v, tuple)}
-        columns, notes = models.compared(**given | moduli)
+        columns, notes = models.compare(**given | moduli)
         _tell("\n".join(notes))
         return _print({name: [*map(_short, cells)] for name, cells in columns.items()})
     rows = models.MODELS.values()

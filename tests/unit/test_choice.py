@@ -21,7 +21,7 @@ ERRORS = ["speed_error [%]", "tangential_error [%]", "angle_error [deg]"]
 
 @pytest.fixture(scope="module")
 def nylon_on_steel():
-    return models.compare("nylon", "steel", **PAIR).set_index("model")
+    return models.compare("nylon", "steel", **PAIR).table().set_index("model")
 
 
 def after(model, angles):
@@ -72,7 +72,7 @@ def test_the_continuum_comes_first_and_all_times_are_there(nylon_on_steel):
 
 def test_where_all_slip_throughout_no_model_errs_and_it_takes_no_time():
     start = time.process_time()
-    table = models.compare("rubber", **SLIPS).set_index("model")
+    table = models.compare("rubber", **SLIPS).table().set_index("model")
     assert time.process_time() - start < 1
     exact = table[~table.index.str.startswith("timestep")]
     assert (exact[ERRORS] < 1e-9).all(axis=None) and (table[ERRORS] < 0.01).all(axis=None)
@@ -89,12 +89,12 @@ def test_where_all_slip_throughout_no_model_errs_and_it_takes_no_time():
     ],
 )
 def test_the_softer_material_gives_restitution_and_loss(pair, words):
-    assert words in models.compared(*pair, **SLIPS)[1][0]
+    assert words in models.compare(*pair, **SLIPS)[1][0]
 
 
 def test_a_model_that_refuses_the_pair_is_left_out():
     """The table of spheres ends at a restitution of 0.3."""
-    found = models.compared("steel", "steel", **SLIPS, restitution=0.2)[0]["model"]
+    found = models.compare("steel", "steel", **SLIPS, restitution=0.2).columns["model"]
     assert "lumped.hysteretic" in found and "spheres.plastic" not in found
 
 
@@ -104,7 +104,7 @@ def test_the_command_prints_the_table_and_what_it_rests_on(capsys):
     assert main(["models", *given.split(), "--restitution", "0.85"]) == 0
     said = capsys.readouterr()
     rows = list(csv.DictReader(said.out.splitlines()))
-    columns, notes = models.compared(
+    columns, notes = models.compare(
         NYLON, "steel", friction=0.1, angle=(80, 85), loss="viscous", restitution=0.85
     )
     assert list(rows[0]) == list(columns)

@@ -29,7 +29,6 @@ from planarimpact.common.losses import LOSSES, LUMPED, SPHERES
 from planarimpact.common.results import Rebound
 from planarimpact.models import laws, timestep
 from planarimpact.models.choice import compare as compare
-from planarimpact.models.choice import compared as compared
 from planarimpact.models.choice import materials as materials
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.

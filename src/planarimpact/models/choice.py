@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from planarimpact.bodies import Material
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import SMALLEST, Array
 from planarimpact.common.losses import SPHERES
+from planarimpact.common.records import record
 
 if TYPE_CHECKING:  # only who wants a DataFrame needs it
     import pandas as pd
@@ -32,29 +33,30 @@ COLUMNS = (
 )
 
 
-def compare(
-    material: str | Material, on: str | Material | None = None, **more: Any
-) -> pd.DataFrame:
-    """The columns of `compared` as a DataFrame with the notes as `attrs["notes"]`; needs pandas.
+@record
+class Comparison(NamedTuple):
+    """Models for a pair of materials, the nearest to the continuum first.
 
-    Arguments and errors: `compared`.
-
-    Examples
-    --------
-    >>> table = compare("steel", "steel", friction=0.1, angle=(0, 60)).set_index("model")
-    >>> table["angle_error [deg]"][["continuum.plastic", "rigid"]].round(1).tolist()
-    [0.0, 2.7]
+    Attributes
+    ----------
+    columns : dict of str to list
+        What `compare` says, an entry a model.
+    notes : list of str
+        What is compared, and where its numbers come from.
     """
-    import pandas as pd
 
-    columns, notes = compared(material, on, **more)
-    table = pd.DataFrame(columns)
-    table.attrs["notes"] = notes
-    return table
+    columns: dict[str, list[Any]]
+    notes: list[str]
+
+    def table(self) -> pd.DataFrame:
+        """The columns as a DataFrame; it needs pandas."""
+        import pandas as pd
+
+        return pd.DataFrame(self.columns)
 
 
 @checks.default_errors
-def compared(
+def compare(
     material: str | Material,
     on: str | Material | None = None,
     *,
@@ -62,8 +64,8 @@ def compared(
     angle: Sequence[float] = (0, 80),
     restitution: float | None = None,
     loss: str | None = None,
-) -> tuple[dict[str, list[Any]], list[str]]:
-    """Errors and times of the models for a pair of materials, the nearest to the continuum first.
+) -> Comparison:
+    """Errors and times of the models that fit a pair of materials.
 
     A solid sphere without spin strikes a body at rest. Errors are those of the motion of its centre
     afterwards, against the continuum with the same restitution and loss. Each is the largest at 65
@@ -87,14 +89,12 @@ def compared(
 
     Returns
     -------
-    columns : dict of str to list
-        model; loss; speed_error [%] and tangential_error [%], of the speed and of the velocity
-        along the surface, as shares of those of the continuum; angle_error [deg], of the angle of
-        rebound; time_alone [us] and time_in_array [us] of one impact, alone and among 1040 (for the
-        continuum, with tolerance 1e-3, among 65), measured on the spot. The continuum with the
-        other loss has in its row what that would change.
-    notes : list of str
-        What is compared, and where its numbers come from.
+    Comparison
+        With the columns model; loss; speed_error [%] and tangential_error [%], of the speed and of
+        the velocity along the surface, as shares of those of the continuum; angle_error [deg], of
+        the angle of rebound; time_alone [us] and time_in_array [us] of one impact, alone and among
+        1040 (for the continuum, with tolerance 1e-3, among 65), measured on the spot. The continuum
+        with the other loss has in its row what that would change.
 
     Raises
     ------
@@ -103,14 +103,17 @@ def compared(
 
     Examples
     --------
-    >>> compared("nylon", "steel", friction=0.3)
+    >>> table = compare("steel", "steel", friction=0.1, angle=(0, 60)).table().set_index("model")
+    >>> table["angle_error [deg]"][["continuum.plastic", "rigid"]].round(1).tolist()
+    [0.0, 2.7]
+    >>> compare("nylon", "steel", friction=0.3)
     Traceback (most recent call last):
     ...
-    planarimpact.InputError: restitution: needed, as none is known here of nylon
+    planarimpact.InputError: restitution: none is known here of nylon, give one
     """
     roles = {"material": material} if on is None else {"material": material, "on": on}
     pair = [_moduli(*one) for one in roles.items()]
-    mu = checks.number("friction", friction, "finite numbers above 0", 0, open_low=True)
+    mu = checks.number("friction", friction, "finite numbers above 0", checks.LEAST)
     rule = "two numbers from 0 to 90 degrees"
     ends = checks.checked("angle", angle, rule, 0, 90)
     if ends.shape != (2,):
@@ -166,7 +169,7 @@ def compared(
         "a solid sphere without spin; errors: the largest of the motion of its centre after the "
         f"impact, against {finest}; the continuum with the other loss shows what that would change",
     ]
-    return columns, notes
+    return Comparison(columns, notes)
 
 
 def materials() -> dict[str, dict[str, dict[str, Any]]]:
@@ -200,5 +203,5 @@ def _known(name: str, given: Any, material: str | Material) -> tuple[Any, str]:
         return given, "as given"
     known = materials().get(material, {}) if isinstance(material, str) else {}
     if name not in known:
-        raise checks.InputError(f"{name}: needed, as none is known here of {material}")
+        raise checks.InputError(f"{name}: none is known here of {material}, give one")
     return known[name]["value"], known[name]["source"]
