@@ -377,27 +377,15 @@ def _parser() -> argparse.ArgumentParser:
         "Without options: what each describes, and what it neglects. With --material and "
         "--friction: how far each is from the continuum, and how long it takes.",
     )
-    names = (
-        f"NAME ({', '.join(models.materials())}), or E,NU: Young's modulus [Pa], Poisson's ratio"
-    )
-    compared.add_argument("--material", type=_material, metavar="NAME", help=f"the sphere: {names}")
-    compared.add_argument(
-        "--on", type=_material, metavar="NAME", help="what it strikes, likewise [a rigid body]"
-    )
+    named: dict[str, Any] = {"type": _material, "metavar": "NAME"}
+    names = f"{', '.join(models.materials())}, or E,NU: Young's modulus [Pa] and Poisson's ratio"
+    compared.add_argument("--material", **named, help=f"of the sphere: {names}")
+    compared.add_argument("--on", **named, help="of what it strikes, likewise [a rigid body]")
     compared.add_argument("--friction", type=_decimal, help="mu, above 0")
-    compared.add_argument(
-        "--angle",
-        type=_decimal,
-        nargs=2,
-        metavar=("FROM", "TO"),
-        help="of incidence, degrees from the normal [0 80]",
-    )
-    compared.add_argument(
-        "--restitution", type=_decimal, help="e, 0.1 to 1 [that of the softer material, if known]"
-    )
-    compared.add_argument(
-        "--loss", choices=continuum.LOSSES, help="what takes the energy [by the softer material]"
-    )
+    degrees = "of incidence, from and to, degrees from the normal [0 80]"
+    compared.add_argument("--angle", type=_decimal, nargs=2, help=degrees)
+    compared.add_argument("--restitution", type=_decimal, help="e [as the softer material has it]")
+    compared.add_argument("--loss", choices=continuum.LOSSES, help="[as the softer material]")
     return parser
 
 
