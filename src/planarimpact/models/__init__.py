@@ -29,6 +29,8 @@ from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.common.losses import LOSSES, LUMPED, SPHERES
 from planarimpact.common.results import Rebound
 from planarimpact.models import laws, timestep
+from planarimpact.models.choice import compare as compare
+from planarimpact.models.choice import materials as materials
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.
 RESTITUTION_ERROR, FRICTION_ERROR = 0.02, 0.1
