@@ -156,8 +156,8 @@ def problems(impacts: Impacts) -> dict[int, str]:
     for i in np.flatnonzero(impacts.loss_code >= len(CODES)).tolist():
         loss = NAMES[impacts.loss_code[i]]
         messages[i] = (
-            f"loss = '{loss}': the continuum has no such loss; allowed are {' and '.join(SPHERES)}, "
-            f"or model = 'lumped.{loss}'"
+            f"loss = '{loss}': the continuum has no such loss; allowed are "
+            f"{' and '.join(SPHERES)}, or model = 'lumped.{loss}'"
         )
     for i in np.flatnonzero(~(impacts.v2 > 0)).tolist():
         messages[i] = (
