@@ -163,9 +163,9 @@ def answers_of(model: models.Model, impacts: Impacts, tolerance: float) -> Answe
         problems[int(rows[first])] = f"{model.name}: {message}"
         return result
     slides = found.regime == Regime.SLIP_THROUGHOUT
-    result.velocity[rows] = found.velocity * impacts.unit[rows]
-    fall = sliding.change(*groups[::2]) * impacts.unit[rows]
-    result.change[rows] = np.where(slides, -fall, result.velocity[rows] - impacts.v1[rows])
+    fall, velocity = sliding.change(*groups[::2]), found.velocity * impacts.unit[rows]
+    result.change[rows] = np.where(slides, -fall * impacts.unit[rows], velocity - impacts.v1[rows])
+    result.velocity[rows] = impacts.v1[rows] + result.change[rows]
     result.peak_friction[rows], result.regime[rows] = found.peak_friction, found.regime
     return result
 
