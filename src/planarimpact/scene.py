@@ -270,8 +270,8 @@ def solve(
         the largest error of that velocity against the continuum [m/s]; `model_form`, how far it
         would move with the other loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known;
         `regime`; `incidence` v1(0)/(mu v2(0)), 0 where v1(0) = 0, else inf without friction;
-        largest normal force, by the normal law of the loss, and friction [N]; `energy_lost [J]`; `caution`, why
-        the answer may not hold, as names of `collision.Caution`.
+        largest normal force, by the normal law of the loss, and friction [N]; `energy_lost [J]`;
+        `caution`, why the answer may not hold, as names of `collision.Caution`.
 
     Raises
     ------

@@ -75,6 +75,8 @@ class Impacts(NamedTuple):
 
 def taken(field: Any, rows: Integers, count: int) -> Any:
     """Some of `count` entries of an array, or of the arrays of a tuple; one stands for all."""
+    if field is None:  # left out, as nobody needs it
+        return None
     if isinstance(field, tuple):
         return type(field)(*(taken(part, rows, count) for part in field))
     return np.broadcast_to(field, (*field.shape[:-1], count))[..., rows]

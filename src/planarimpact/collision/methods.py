@@ -14,7 +14,7 @@ import numpy as np
 from planarimpact import continuum, models, spheres
 from planarimpact.collision.mechanics import Impacts, slides_throughout
 from planarimpact.common import checks, sliding
-from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.common.checks import ConvergenceError, InputError
 from planarimpact.common.losses import BY_NAME, CODES, NAMES, PLASTIC, SPHERES, Loss
 from planarimpact.common.results import Rebound, Regime
@@ -117,19 +117,21 @@ class Answers(NamedTuple):
     refused: dict[int, str]
 
 
-def answers(impacts: Impacts, tolerance: float, peaks: bool = False, solve: bool = True) -> Answers:
+def answers(
+    impacts: Impacts, tolerance: float, peaks: bool = False, solve: bool | Booleans = True
+) -> Answers:
     """Each impact answered by its method, with its peak friction or, in less time, without.
 
-    Without `solve` impacts that need the continuum solved are refused.
+    Where `solve` is False, impacts that need the continuum solved are refused.
     """
     place, error = of_each(impacts, tolerance)
     result = _by_formulas(impacts, place, error)
-    if not solve and (need := np.flatnonzero(IS_SOLVED[place])).size:
-        said = "solve = False: it needs the continuum, solved, as {}; allowed are others"
-        result.refused.update({i: said.format(METHODS[place[i]].why) for i in need.tolist()})
-        return result
-    for number in np.unique(place[IS_CONTINUUM[place]]).tolist():
-        _add_continuum(result, impacts, number, tolerance, peaks)
+    needs = np.flatnonzero(IS_SOLVED[place] & ~np.asarray(solve)).tolist()
+    said = "solve = False: it needs the continuum, solved, as {}; allowed are others"
+    result.refused.update({i: said.format(METHODS[place[i]].why) for i in needs})
+    for number in np.unique(np.delete(place, needs)).tolist():
+        if IS_CONTINUUM[number]:
+            _add_continuum(result, impacts, number, tolerance, peaks)
     return result
 
 
@@ -224,6 +226,7 @@ def _add_continuum(
 ) -> None:
     """Write the answers of one method into the result."""
     method, rows = METHODS[number], np.flatnonzero(result.place == number)
+    rows = np.setdiff1d(rows, [*result.refused]) if result.refused else rows
     x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
     if method.way == "solved":
         rebound, with_answer, messages = solved(method.loss, x, groups, _tolerance(x, tolerance))
