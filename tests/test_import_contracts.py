@@ -87,7 +87,7 @@ PUBLIC_MODULES = {
     "normal_impact.hertz",
     "normal_impact.kelvin_voigt",
     "normal_impact.yielding",
-    "lumped.one_impact",  # in floats
+    "lumped.one_impact",  # in floats, for `collide`
     "models.laws",
     "models.timestep",
     "noncollinear.rigid",

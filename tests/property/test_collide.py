@@ -390,3 +390,21 @@ def test_a_caller_may_change_its_vectors_afterwards():
     result = collide(pair, [0, 0, 1], BALL, velocity, [0, 0, 0])
     velocity[:] = result.velocity
     assert result.model_form == wanted > 0
+
+
+@pytest.mark.parametrize("law", [{"restitution": 0.8}, {"yield_pressure": 2e9}])
+def test_replaced_fields_are_those_of_a_new_pair(law):
+    """Of one pair and of a table; the old pair stays as it was."""
+    for friction in (0.2, [[0.2], [0.3]]):
+        given = {"friction": friction, "loss": "plastic"} | law
+        pair = Pair(STEEL, **given)
+        for change in ({"friction": 0.4}, {"friction": [0.1, 0.2]}, dict(law), {"loss": "plastic"}):
+            change |= {name: 0.9 * value for name, value in law.items()}
+            found, wanted = pair.replace(**change), Pair(STEEL, **given | change)
+            wanted = wanted if found.shape == wanted.shape else wanted.broadcast(found.shape)
+            for name in Pair.__slots__:
+                one, other = (np.ravel(getattr(pair, name)) for pair in (found, wanted))
+                np.testing.assert_array_equal(one, other)
+        np.testing.assert_array_equal(pair.friction, friction)
+    other = pair.replace(restitution=0.5, yield_pressure=None)
+    assert (other.restitution == 0.5).all() and np.isnan(other.yield_pressure).all()

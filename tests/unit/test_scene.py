@@ -358,6 +358,7 @@ def test_explain_says_what_the_loss_and_unlike_bodies_may_cost(tmp_path, monkeyp
     words = reported(tmp_path, rows, loss="viscous")[0].explain()
     # Dundurs' constant is 0.286; one impact slides throughout, and one is head-on.
     assert "5  caution DISSIMILAR: the bodies spread differently under pressure" in words
+    monkeypatch.undo()
     found = reported(tmp_path, rows, loss="plastic")[1]["caution"].tolist()
     both = "FRICTION|DISSIMILAR"
     assert found == ["none", both, both, both, "FRICTION", f"RESTITUTION|{both}", "DISSIMILAR"]

@@ -22,13 +22,15 @@ differ from it, and to a measured rubber sphere it is the nearest. At e = 0.8 it
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.common.losses import LUMPED, LumpedLoss
 from planarimpact.common.results import History, Rebound, of_groups
-from planarimpact.lumped import by_loss
+from planarimpact.lumped import by_loss, one_impact
 from planarimpact.lumped.stick_slip import Impacts
 
 # Names of the losses that this model has.
@@ -109,6 +111,13 @@ def rebound(
     """
     chosen = LUMPED[checks.loss(loss, LUMPED)]
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    if not x.ndim:
+        signed, beta, zeta2, e = map(float, (x, *groups))
+        found = one_impact.rebound(chosen, abs(signed), beta, zeta2, e)
+        if found:
+            velocity, *others, regime = found
+            numbers = map(np.float64, (math.copysign(1.0, signed) * velocity, *others))
+            return Rebound._make([*numbers, regime, None])
     return Rebound.shaped(x, *by_loss.solve(chosen, _flat(x, *groups)))
 
 
