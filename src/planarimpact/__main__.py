@@ -21,6 +21,7 @@ from planarimpact import (
 )
 from planarimpact import scene as tables
 from planarimpact.common import checks
+from planarimpact.common.cautions import Caution
 from planarimpact.common.results import Regime
 
 ABOUT = """
@@ -112,6 +113,9 @@ def _rebound(options: argparse.Namespace) -> None:
         if fields[name] is not None
     }
     loss = "none" if options.restitution == 1 else model.loss
+    caution = Caution.of(loss, options.friction or 0, options.restitution).text
+    if caution:
+        _tell(f"caution: {caution}")
     described = {"model": [model.name] * len(x), "loss": [loss] * len(x)}
     _print({"incidence [mu v2(0)]": x} | columns | described)
 

@@ -41,10 +41,10 @@ strength of the surface, and the velocity may be off by up to 0.9 mu v2(0)
 
     @classmethod
     def of(
-        cls, loss: str, friction: float, restitution: float, dissimilar: bool = False
+        cls, loss: str | None, friction: float, restitution: float, dissimilar: bool = False
     ) -> Caution:
-        """That of one pair of materials that sticks at some time; "none" is no loss."""
-        code = [*BY_NAME, "none"].index(loss if restitution < 1 else "none")
+        """That of one pair of materials that sticks at some time; there may be no such loss."""
+        code = [*BY_NAME].index(loss) if loss in BY_NAME and restitution < 1 else -1
         return cls(int(cls.codes(np.array(code), friction, restitution, dissimilar)))
 
     @classmethod

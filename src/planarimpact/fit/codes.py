@@ -18,6 +18,7 @@ import numpy as np
 from planarimpact import bodies
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.cautions import Caution
 from planarimpact.common.records import record
 from planarimpact.fit import overlaps
 from planarimpact.models import timestep
@@ -45,7 +46,7 @@ the range, at x = {twice:.3g}, {found.beyond:.3f}
 #     of a sphere at a flat wall {wall} for x up to {up_to[1]:g}
 {jumps}{larger}#   a spin against the motion can more than double it
 # The fit is valid for this restitution and this material.
-"""
+{caution}"""
 JUMPS = """\
 #     of these {0:g}, {1:g} and {2:g} also for the smallest overlap: velocities jump where a step of
 #     the contact changes
@@ -332,6 +333,7 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
     end, known = float(found.incidence[-1]), overlaps.FRICTIONS[-1]
     costs = overlaps.costs(found.law, size, min(mu, known))
     jumps = overlaps.costs(found.law, 0.0, 0.0)
+    caution = Caution.of(found.loss, mu, found.restitution).text
     return {
         "continuum": found.loss if found.restitution < 1 else "elastic",
         "steps": timestep.DASHPOT_STEPS,
@@ -345,6 +347,7 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
         "jumps": JUMPS.format(*jumps) if any(jumps) else "",
         "measured": min(mu, known),
         "larger": LARGER if mu > known else "",
+        "caution": f"# caution: {caution}\n" if caution else "",
         "friction": mu,
         "density": rho,
         "speed": v2,

@@ -13,6 +13,7 @@ from planarimpact import bodies, continuum, models
 from planarimpact.bodies import Material
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import SMALLEST, Array
+from planarimpact.common.cautions import Caution
 from planarimpact.common.losses import SPHERES
 from planarimpact.common.records import record
 
@@ -157,6 +158,8 @@ def compare(
     ]
     rows.sort(key=lambda row: float(row[3]))
     columns = {name: [*cells] for name, cells in zip(COLUMNS, zip(*rows, strict=True), strict=True)}
+    dissimilar = abs(float(bodies.dundurs(*pair))) > bodies.COUPLING * mu
+    caution = Caution.of(str(known_loss), mu, e, dissimilar).text
     named = {one: known for one, known in materials().items() if one in roles.values()}
     notes = [
         f"{material} on {'a rigid body' if on is None else on}: stiffness ratio {groups[1]:.3g}; "
@@ -166,6 +169,7 @@ def compare(
             for one, known in named.items()
             for field in Material._fields
         ),
+        *([f"caution: {caution}"] if caution else []),
         "a solid sphere without spin; errors: the largest of the motion of its centre after the "
         f"impact, against {finest}; the continuum with the other loss shows what that would change",
     ]
