@@ -11,8 +11,9 @@ import json
 import runpy
 import subprocess
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pandas as pd
@@ -33,6 +34,9 @@ BEGINS = (0.001, 0.25, 0.5, 0.75)
 def material(pair: str) -> bodies.Material:
     """The material of both spheres of a pair."""
     return bodies.Material(LAMMPS["YOUNG_MODULUS"], LAMMPS["PAIRS"][pair][0])
+
+
+Ask: TypeAlias = Callable[[list[dict[str, Any]]], list[list[float]]]
 
 
 def usual(found: fit.Fit) -> fit.Fit:
@@ -63,11 +67,11 @@ def impact(
     return {"lines": lines, "incidence": x, "wall": wall, "begins": begins} | sphere
 
 
-def rows() -> list[list[str]]:
+def rows(law: str = "yade", ask: Ask = in_yade) -> list[list[str]]:
     """Pair, contact, variant, begin, incidence and velocity of every impact."""
     labels, impacts = [], []
     for pair, wall, begins in itertools.product(LAMMPS["PAIRS"], (False, True), BEGINS):
-        found = fitted("yade", pair)
+        found = fitted(law, pair)
         x = [*found.incidence[::EVERY].tolist(), 2 * float(found.incidence[-1])]
         variants = {"before": usual(found), "after": found}
         for name, one in variants.items():
@@ -76,36 +80,41 @@ def rows() -> list[list[str]]:
                 impacts.append(impact(one, pair, x, wall=wall, begins=begins))
     return [
         [*label, f"{x:.10g}", f"{w:.6f}"]
-        for label, asked, answer in zip(labels, impacts, in_yade(impacts), strict=True)
+        for label, asked, answer in zip(labels, impacts, ask(impacts), strict=True)
         for x, w in zip(asked["incidence"], answer, strict=True)
     ]
 
 
-def overlap_rows() -> list[list[str]]:
-    """Pair, contact, friction, overlap, and how far Yade, with the lines of a fit, is from it."""
+def overlap_rows(law: str = "yade", ask: Ask = in_yade) -> list[list[str]]:
+    """Pair, contact, friction, overlap, and how far the code is from the fit with its lines."""
     labels, impacts, foreseen = [], [], []
     cases = LAMMPS["PAIRS"], (False, True), overlaps.FRICTIONS, overlaps.OVERLAPS
     for pair, wall, friction, size in itertools.product(*cases):
         slow = fit.overlap(material(pair), *(SPHERE[key] for key in ("radius", "density", "speed")))
-        found = fitted("yade", pair)
+        found = fitted(law, pair)
         speed = SPHERE["speed"] * (size / slow) ** 1.25
         given = {"friction": friction, "speed": speed, "wall": wall, "begins": BEGINS[0]}
         impacts.append(impact(found, pair, found.incidence.tolist(), **given))
         labels.append([pair, "wall" if wall else "spheres", f"{friction:g}", f"{size:.4f}"])
         foreseen.append(found)
     measured = []
-    for label, found, answer in zip(labels, foreseen, in_yade(impacts), strict=True):
+    for label, found, answer in zip(labels, foreseen, ask(impacts), strict=True):
         off = np.abs(np.array(answer) - found.after)
         costs = [off[found.incidence <= end].max() for end in overlaps.INCIDENCES]
         measured.append([*label, *(f"{cost:.4f}" for cost in costs)])
     return measured
 
 
-if __name__ == "__main__":
+def write(folder: Path, law: str, ask: Ask) -> None:
+    """Both tables of a code."""
     header = ["pair", "contact", "variant", "begins [1]", "incidence [mu v2(0)]"]
-    impacts = pd.DataFrame(rows(), columns=[*header, "velocity [mu v2(0)]"])
-    impacts.to_csv(HERE / "rebound.csv", index=False, lineterminator="\n")
+    impacts = pd.DataFrame(rows(law, ask), columns=[*header, "velocity [mu v2(0)]"])
+    impacts.to_csv(folder / "rebound.csv", index=False, lineterminator="\n")
     header = ["pair", "contact", "mu", "overlap [radius]"]
     ends = ["cost_sticking [mu v2(0)]", "cost_sliding [mu v2(0)]"]
-    costs = pd.DataFrame(overlap_rows(), columns=[*header, *ends])
-    costs.to_csv(HERE / "overlap.csv", index=False, lineterminator="\n")
+    costs = pd.DataFrame(overlap_rows(law, ask), columns=[*header, *ends])
+    costs.to_csv(folder / "overlap.csv", index=False, lineterminator="\n")
+
+
+if __name__ == "__main__":
+    write(HERE, "yade", in_yade)

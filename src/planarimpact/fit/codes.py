@@ -2,8 +2,8 @@
 
 Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; MercuryDPM,
 `LinearViscoelasticInteraction.cc`, `SlidingFrictionInteraction.cc`, of 2020; Yade,
-`pkg/dem/ViscoelasticPM.cpp`, of 2021; for their motion see `overlaps`. What LAMMPS and Yade answer
-is in `data/lammps` and `data/yade`; nobody has run MercuryDPM with these lines.
+`pkg/dem/ViscoelasticPM.cpp`, of 2021; for their motion see `overlaps`. What the codes answer is in
+`data/lammps`, `data/yade` and `data/mercurydpm`.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ at {speed:g} m/s
 the range, at x = {twice:.3g}, {found.beyond:.3f}
 # overlap of the spheres at this speed, over their radius: at most {overlap:.2g}
 #   at mu = {measured:g} and without spin before, it adds to the largest error,
-#   as computed from the sources of the codes; LAMMPS (for two spheres) and Yade themselves agree:
+#   as computed from the source of the code; LAMMPS (two spheres), Yade and MercuryDPM agree:
 #     of two spheres at most {costs[0]:.2g} for x up to {up_to[0]:g}, where contacts mostly stick
 #     of two spheres at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
 #     of a sphere at a flat wall {wall} for x up to {up_to[1]:g}
