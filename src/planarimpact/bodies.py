@@ -377,7 +377,8 @@ def solid_sphere(
     if density is not None:
         r, rho = _arrays(radius, density)
         mass = in_range("mass", rho * r * r * r * (4 / 3 * np.pi))
-    return _shape(2 / 5, radius, mass)
+    r, m = _arrays(radius, mass)
+    return Body(m, r * np.sqrt(2 / 5), r)
 
 
 @_formula()
@@ -391,7 +392,8 @@ def thin_shell(radius: ArrayLike, *, mass: ArrayLike) -> Body:
     >>> round(float(mass_ratio(thin_shell(0.02, mass=0.0027))), 12)
     2.5
     """
-    return _shape(2 / 3, radius, mass)
+    r, m = _arrays(radius, mass)
+    return Body(m, r * np.sqrt(2 / 3), r)
 
 
 @_formula()
@@ -405,13 +407,8 @@ def disc(radius: ArrayLike, *, mass: ArrayLike) -> Body:
     >>> round(float(mass_ratio(disc(0.05, mass=0.2))), 12)
     3.0
     """
-    return _shape(1 / 2, radius, mass)
-
-
-def _shape(share: float, radius: ArrayLike, mass: ArrayLike | None) -> Body:
-    """Body whose radius of gyration squared is a share of its radius squared."""
     r, m = _arrays(radius, mass)
-    return Body(m, r * np.sqrt(share), r)
+    return Body(m, r * np.sqrt(1 / 2), r)
 
 
 @_formula()
