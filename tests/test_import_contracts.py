@@ -30,6 +30,7 @@ SOLVER = {
     "fit": "common normal_impact bodies continuum spheres models",
     "collision": "common normal_impact bodies lumped noncollinear continuum spheres models",
     "scene": "common bodies collision pandas",
+    "_pyinstaller": "",
     "__init__": (
         "planarimpact common normal_impact rigid lumped continuum bodies noncollinear spheres"
         " models export fit collision scene"

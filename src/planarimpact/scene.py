@@ -762,7 +762,7 @@ def _of_good(values: dict[str, Any]) -> tuple[Impacts, Array]:
         """A body; the other one is a wall of infinite mass where it has no mass."""
         radius = values.get(f"{who}radius", zero)
         if f"{who}density" in values:
-            return bodies.solid_sphere(radius, values[f"{who}density"])
+            return bodies.solid_sphere(radius, density=values[f"{who}density"])
         mass, gyration = (
             values.get(f"{who}{name}", zero + np.inf) for name in ("mass", "gyration")
         )

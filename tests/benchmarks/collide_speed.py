@@ -50,7 +50,9 @@ def million(seed=1):
     velocity, other_velocity = rng.normal(0, 2, size=(2, COUNT, 3))
     normal *= -np.sign(np.sum((velocity - other_velocity) * normal, axis=1))[:, None]
     spin, other_spin = rng.normal(0, 100, size=(2, COUNT, 3))
-    body, other = (bodies.solid_sphere(rng.uniform(1e-3, 1e-2, COUNT), 7800.0) for _ in range(2))
+    body, other = (
+        bodies.solid_sphere(rng.uniform(1e-3, 1e-2, COUNT), density=7800.0) for _ in range(2)
+    )
     groups = {
         "friction": rng.uniform(0.05, 0.6, COUNT),
         "stiffness_ratio": rng.uniform(1.0, 1.5, COUNT),
@@ -66,7 +68,7 @@ def million(seed=1):
 
 
 if __name__ == "__main__":
-    ball = bodies.solid_sphere(0.01, 2000.0)
+    ball = bodies.solid_sphere(0.01, density=2000.0)
     for words, pair in SINGLE.items():
         timed(f"one impact, {words}", lambda pair=pair: repeated(pair, ball), SINGLES, "us")
     pairs, arguments = million()

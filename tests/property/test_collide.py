@@ -26,7 +26,7 @@ COUNT = 12_000
 ROUNDING = 1e-12
 WALL = bodies.HALF_SPACE
 STEEL = bodies.Material(207e9, 0.3)
-BALL = bodies.solid_sphere(0.01, 7800.0)
+BALL = bodies.solid_sphere(0.01, density=7800.0)
 
 
 def of_steel(friction, restitution, loss="plastic"):
@@ -221,7 +221,11 @@ LONG_SEEDS = (pytest.param(seed, marks=pytest.mark.long) for seed in range(30))
 @pytest.mark.parametrize("seed", [100, *LONG_SEEDS])
 def test_one_impact_is_that_of_many(seed):
     """Both have the same answer, to rounding, and the single one is taken by its own function."""
-    up, still, ball = np.array([0.0, 0.0, 1.0]), np.zeros(3), bodies.solid_sphere(0.01, 2500.0)
+    up, still, ball = (
+        np.array([0.0, 0.0, 1.0]),
+        np.zeros(3),
+        bodies.solid_sphere(0.01, density=2500.0),
+    )
     pairs, x, distance = sprayed(np.random.default_rng(seed))
     velocity = x[:, None] * [0.3, 0, 0] - up
     many, plain = collide(pairs, up, ball, velocity, still), 0

@@ -88,7 +88,7 @@ RULES = {
     "path": [5, None, Inch()],
     "record": [3.5, None, (1.0, 2.0, 3.0), Inch()],
 }
-BALL, STEEL = bodies.solid_sphere(0.01, 7800.0), Material(207e9, 0.3)
+BALL, STEEL = bodies.solid_sphere(0.01, density=7800.0), Material(207e9, 0.3)
 ROD = noncollinear.inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
 # The rule of each argument, and a value that it allows.
 ARGUMENTS = {

@@ -26,7 +26,7 @@ def nylon_on_steel():
 
 def after(model, angles):
     """Speed, tangential velocity and angle of a ball that arrives at some angles with 1 m/s."""
-    ball, mu, e = bodies.solid_sphere(0.01, 1140), PAIR["friction"], PAIR["restitution"]
+    ball, mu, e = bodies.solid_sphere(0.01, density=1140), PAIR["friction"], PAIR["restitution"]
     along, normal = np.sin(np.radians(angles)), np.cos(np.radians(angles))
     zeta2 = bodies.stiffness_ratio(NYLON, STEEL)
     x = bodies.incidence(along, normal, mu)

@@ -2,13 +2,14 @@
 
 import re
 import shlex
+import shutil
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from planarimpact import Regime, collision, export, spheres
+from planarimpact import InputError, Regime, bodies, collision, export, spheres
 from planarimpact.__main__ import main
 from planarimpact.bodies import Body, Material, stiffness_ratio
 from planarimpact.spheres import table
@@ -224,6 +225,61 @@ def test_a_header_meets_cpp_and_never_a_compiler_without_nan(folder):
             done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
             assert (done.returncode == 0) == works, done.stderr
             assert works or "This header needs NaN" in done.stderr
+
+
+def test_bodies_have_the_numbers_of_python(folder):
+    """A density and a mass are told apart by the name, in every language."""
+    shapes = {
+        "solid_sphere_by_density": bodies.solid_sphere(0.0127, density=7800),
+        "solid_sphere_by_mass": bodies.solid_sphere(0.0127, mass=7800),
+        "thin_shell": bodies.thin_shell(0.0127, mass=7800),
+    }
+    calls = "".join(f"    show(coarse_{shape}(0.0127, 7800));\n" for shape in shapes)
+    (folder / "bodies.c").write_text(
+        '#include <stdio.h>\n#include "coarse.h"\nstatic void show(struct coarse_body b)\n{\n'
+        '    printf("%.17g %.17g %.17g\\n", b.mass, b.gyration, b.radius);\n}\n'
+        f"int main(void)\n{{\n{calls}    return 0;\n}}\n"
+    )
+    compiler = [programs.needed("spheres in C"), "-std=c99", "bodies.c", "-o", "bodies", "-lm"]
+    subprocess.run(compiler, cwd=folder, check=True)
+    done = subprocess.run(["./bodies"], cwd=folder, check=True, capture_output=True, text=True)
+    text = 'import * as coarse from "./coarse.mjs";\nconst show = ({ mass, gyration, radius }) =>\n'
+    text += "    console.log(mass, gyration, radius);\n" + calls.replace("coarse_", "coarse.")
+    wanted = np.array(list(shapes.values()), float)
+    for lines in (done.stdout.splitlines(), said_by_node(folder, "bodies.mjs", text)):
+        np.testing.assert_array_equal(np.array([line.split() for line in lines], float), wanted)
+
+
+# Types for TypeScript -------------------------------------------------------------------------
+
+
+def test_every_export_has_its_type(folder):
+    for name in export.TABLES.values():
+        module, types = ((folder / f"{name}{end}").read_text() for end in (".mjs", ".d.mts"))
+        signature = r"export (function \w+\([^)]*\)|const \w+)"
+        written, declared = (re.findall(signature, text) for text in (module, types))
+        # The arguments without their types, and without a comma after the last one.
+        plain = [re.sub(r": [^,)]+|,?\s+(?=\))", "", one) for one in declared]
+        found, wanted = (
+            sorted(re.sub(r"\s+", "", one) for one in several) for several in (plain, written)
+        )
+        assert found == wanted and len(found) > 25
+
+
+def test_types_pass_and_refuse_what_they_should(folder):
+    """Lines of client.mts below `@ts-expect-error` must be refused, all others must pass."""
+    tsc = programs.needed("types for TypeScript")
+    shutil.copy(PROGRAMS / "client.mts", folder)
+    command = [tsc, "--strict", "--noEmit", "--module", "nodenext", "client.mts"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_neither_the_code_nor_its_types_appear_alone(tmp_path):
+    (tmp_path / "ball.d.ts").mkdir()
+    with pytest.raises(InputError, match="ball.d.ts: it is there already, and no regular file"):
+        export.write_spheres(tmp_path / "ball.js", "js")
+    assert [path.name for path in tmp_path.iterdir()] == ["ball.d.ts"]
 
 
 # The README's examples ------------------------------------------------------------------------

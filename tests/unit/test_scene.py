@@ -95,7 +95,7 @@ def test_a_row_is_what_collide_says_alone(law):
         wall = np.isinf(given["other_mass [kg]"])
         materials = (steel,) if wall else (steel, bodies.Material(70e9, 0.2))
         pair = Pair(*materials, friction=given["friction"], **said)
-        ball = bodies.solid_sphere(0.01, 7800.0)
+        ball = bodies.solid_sphere(0.01, density=7800.0)
         other = bodies.Body(*(given[f"other_{name}"] for name in ("mass [kg]", "gyration [m]")), 0)
         other = bodies.HALF_SPACE if wall else other._replace(radius=0.02)
         normal = np.array([0.6, 0.0, 0.8])

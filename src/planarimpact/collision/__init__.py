@@ -326,7 +326,7 @@ def _refuse_types(pair: Pair, body: Body, other: Body) -> None:
         raise InputError(f"pair = {checks.brief(pair)}: allowed is a planarimpact.Pair")
     for name, value in (("body", body), ("other", other)):
         if not isinstance(value, Body):
-            allowed = "a bodies.Body, such as bodies.solid_sphere(radius, density)"
+            allowed = "a bodies.Body, such as bodies.solid_sphere(radius, density=...)"
             raise InputError(f"{name} = {checks.brief(value)}: allowed is {allowed}")
 
 

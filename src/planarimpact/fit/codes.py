@@ -2,8 +2,8 @@
 
 Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; MercuryDPM,
 `LinearViscoelasticInteraction.cc`, `SlidingFrictionInteraction.cc`, of 2020; Yade,
-`pkg/dem/ViscoelasticPM.cpp`, of 2021; for their motion see `overlaps`. What LAMMPS answers is in
-`data/lammps`; nothing here runs the other two.
+`pkg/dem/ViscoelasticPM.cpp`, of 2021; for their motion see `overlaps`. What the codes answer is in
+`data/lammps`, `data/yade` and `data/mercurydpm`.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ at {speed:g} m/s
 the range, at x = {twice:.3g}, {found.beyond:.3f}
 # overlap of the spheres at this speed, over their radius: at most {overlap:.2g}
 #   at mu = {measured:g} and without spin before, it adds to the largest error,
-#   as computed from the sources of the code, and measured only for two spheres in LAMMPS:
+#   as computed from the source of the code; LAMMPS (two spheres), Yade and MercuryDPM agree:
 #     of two spheres at most {costs[0]:.2g} for x up to {up_to[0]:g}, where contacts mostly stick
 #     of two spheres at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
 #     of a sphere at a flat wall {wall} for x up to {up_to[1]:g}
@@ -304,7 +304,7 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
     size = overlaps.overlap(material, radius, density, speed)
     mu = checks.number("friction", friction, "finite numbers above 0", 0, open_low=True)
     r, rho, v2, young, nu = (float(np.asarray(n)) for n in (radius, density, speed, *material))
-    sphere = bodies.solid_sphere(r, rho)
+    sphere = bodies.solid_sphere(r, density=rho)
     for name, value, own in (
         ("mass_ratio", found.mass_ratio, bodies.mass_ratio(sphere, sphere)),
         ("stiffness_ratio", found.stiffness_ratio, bodies.stiffness_ratio(material, material)),

@@ -4,7 +4,7 @@
  * A ball that bounces on a floor at rest (z is up; metres, kilograms, radians, seconds):
  *   #include "spheres.h"
  *
- *   struct spheres_body ball = spheres_solid_sphere(0.03, 0.1); // radius, mass
+ *   struct spheres_body ball = spheres_solid_sphere_by_mass(0.03, 0.1);
  *   struct spheres_pair rubber = {
  *       .friction = 0.8, .stiffness_ratio = 1.5, .restitution = 0.9, .loss = SPHERES_VISCOUS};
  *   struct spheres_vector up = {0, 0, 1}, velocity = {3, 0, -4}, spin = {0, -50, 0};
@@ -342,13 +342,21 @@ struct spheres_collision {
 static const struct spheres_body SPHERES_WALL = {(double)INFINITY, (double)INFINITY, 0};
 
 /* A homogeneous sphere, from its radius [m] and its mass [kg]. */
-static inline struct spheres_body spheres_solid_sphere(double radius, double mass)
+static inline struct spheres_body spheres_solid_sphere_by_mass(double radius, double mass)
 {
     struct spheres_body body = {0, 0, 0};
     body.mass = mass;
     body.gyration = radius * sqrt(0.4);
     body.radius = radius;
     return body;
+}
+
+/* A homogeneous sphere, from its radius [m] and its density [kg/m^3]. */
+static inline struct spheres_body spheres_solid_sphere_by_density(double radius, double density)
+{
+    const double volume_factor = 4.0 / 3 * 3.141592653589793;
+    return spheres_solid_sphere_by_mass(
+        radius, density * radius * radius * radius * volume_factor);
 }
 
 /* A thin hollow sphere, from its radius [m] and its mass [kg]. */
