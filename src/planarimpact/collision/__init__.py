@@ -277,17 +277,16 @@ def _collide_arrays(
     except bodies.OutOfRange as error:
         raise InputError(f"{_place(min(error.messages), shape)}{error}") from None
     # Also where nothing approaches: a normal of two centres at one place is no number, or zero.
-    for i, problem in problems_of_normals(given.normal).items():
-        raise InputError(f"{_place(i, shape)}{problem}")
+    _refuse(problems_of_normals(given.normal), shape)
     approach = np.flatnonzero(given.v2 > 0)
     met = given if approach.size == given.v2.size else given.take(approach)
-    wrong = {} if model or plane else problems(met)
+    energies = None
     if model:
         loss_code, wrong = methods.lost_by(model, met.loss_code)
+        _refuse(wrong, shape, approach)
         met = met._replace(loss_code=loss_code)
-    for i, problem in wrong.items():
-        raise InputError(f"{_place(approach[i], shape)}{problem}")
-    energies = None
+    elif not plane:
+        _refuse(problems(met), shape, approach)
     if plane:
         plane = taken(plane, approach, given.v2.size)
         answer, impulses, energies = off_centre.answers(met, plane, model)
@@ -298,8 +297,7 @@ def _collide_arrays(
         else:
             answer = methods.answers(met, tolerance, solve=solve)
         states = after(met, answer.change)
-    for i, problem in answer.refused.items():
-        raise InputError(f"{_place(approach[i], shape)}{problem}")
+    _refuse(answer.refused, shape, approach)
     for i, problem in answer.unsolved.items():
         raise Unsolved(f"{_place(approach[i], shape)}{problem}", approach[[i]])
     whole = partial(_whole, approach, given.v2.size, shape)
@@ -357,6 +355,12 @@ def _common_shape(pair: Pair, vectors: list[Array], fields: list[Array]) -> tupl
         raise InputError(
             f"shapes do not broadcast: {listed}, without the axis of vectors"
         ) from None
+
+
+def _refuse(messages: dict[int, str], shape: tuple[int, ...], rows: Integers | None = None) -> None:
+    """Refuse the first impact that has a message; `rows` are those that messages are about."""
+    for i, message in messages.items():
+        raise InputError(f"{_place(i if rows is None else rows[i], shape)}{message}")
 
 
 def _place(index: int, shape: tuple[int, ...]) -> str:

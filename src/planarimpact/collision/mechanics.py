@@ -87,15 +87,11 @@ def impacts(
 ) -> Impacts:
     """Impacts of bodies, arrays of shape (n,), whose states and normals have the shape (3, n).
 
-    Normals are divided by their length if it is within 1e-6 of 1: else energy would grow by a
-    share of that error, and a head-on impact would have an incidence.
-
     v2 may be 0 or negative, where nothing approaches. OutOfRange says where a velocity of contact,
     a mass or a mass ratio is beyond the rule of sizes, or a relaxation time beyond its law.
     `problems_of_normals` finds other normals.
     """
-    length = np.sqrt(dot(normal, normal))
-    normal = normal / np.where(np.abs(length - 1) <= checks.LENGTH_ERROR, length, 1.0)
+    normal = unit_normal(normal)
     relative = contact_velocity(before, body, -normal)
     relative = relative - contact_velocity(other_before, other, normal)
     along = dot(relative, normal)
@@ -122,6 +118,15 @@ def impacts(
         pair.stiffness_ratio,
         pair.dundurs,
     )
+
+
+def unit_normal(normal: Array) -> Array:
+    """Normals, divided by their length if it is within 1e-6 of 1.
+
+    Else energy would grow by a share of that error, and a head-on impact would have an incidence.
+    """
+    length = np.sqrt(dot(normal, normal))
+    return normal / np.where(np.abs(length - 1) <= checks.LENGTH_ERROR, length, 1.0)
 
 
 def slides_throughout(impacts: Impacts) -> Booleans:

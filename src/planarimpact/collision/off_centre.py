@@ -59,6 +59,7 @@ def impacts(
 
     The plane is that of the first of the two offsets that is not 0, else that of the motion.
     """
+    normal = mechanics.unit_normal(normal)
     arm, other_arm = offset - body.radius * normal, other_offset + other.radius * normal
     relative = before.velocity + np.stack(cross(before.spin, arm))
     relative = relative - other_before.velocity - np.stack(cross(other_before.spin, other_arm))
