@@ -200,7 +200,7 @@ def sprayed(rng):
     """
     near = np.array([0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3, 2e-2, -2e-2])
     rows = []
-    ends = [e * (1 + distance) for e in (0.1, 0.3) for distance in near[:3]]
+    ends = 0.1, 0.1 * (1 + near[1]), *0.3 * (1 + near[:3])  # nothing is solved below 0.1
     for e in (*ends, 0.6, rng.uniform(0.3, 0.9), 1 - 1e-9, 1):
         for zeta2 in (1.0, rng.uniform(1.0, 1.5), 1.5):
             for loss in spheres.LOSSES:

@@ -196,7 +196,7 @@ def test_impacts_that_were_wrong_and_those_around_them(loss):
     found, random = np.transpose(FOUND[loss]), np.random.default_rng(21)
     around = found * (1 + 0.01 * random.normal(size=found.shape))
     around[3] = np.clip(around[3], spheres.LEAST_RESTITUTION[loss], 1.0)
-    around = around[:, spheres.covers(*around[1:], loss)]
+    around = around[:, spheres.covers(*around[1:], loss=loss)]
     error, bounds = errors(loss, *np.concatenate([found, around], axis=1))
     assert (error <= bounds).all(), error / bounds
 

@@ -163,7 +163,9 @@ def of_python(impacts, shipped, monkeypatch):
     x, beta, zeta2, e, loss = impacts
     with np.errstate(all="ignore"):
         good = (np.abs(x) <= LARGEST) & (beta >= 1) & ((loss == 1) | (loss == 2))
-        good &= spheres.covers(beta, zeta2, e, np.where(loss == 1, "viscous", "plastic"))
+        groups = beta, zeta2, e
+        own = (spheres.covers(*groups, loss=name) for name in ("viscous", "plastic"))
+        good &= np.where(loss == 1, *own)
         tabled = good & (np.abs(x) < np.maximum(zeta2, beta + e * (beta - zeta2)))
     words = np.array(["", *spheres.LOSSES])[loss[good].astype(int)]
     monkeypatch.setattr(table, "shipped", lambda: shipped)

@@ -14,7 +14,7 @@ import numpy as np
 
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.common.losses import CODES, PLASTIC, SPHERES, VISCOUS
+from planarimpact.common.losses import CODES, PLASTIC, SPHERES
 from planarimpact.common.results import Rebound, Regime
 from planarimpact.spheres import table
 
@@ -45,7 +45,8 @@ def covers(
     mass_ratio: ArrayLike,
     stiffness_ratio: ArrayLike,
     restitution: ArrayLike,
-    loss: str | ArrayLike | None = None,
+    *,
+    loss: str | None = None,
 ) -> Booleans:
     """Whether the table has an answer for these groups, at every incidence; they broadcast.
 
@@ -53,7 +54,7 @@ def covers(
     ----------
     mass_ratio, stiffness_ratio, restitution : array_like
         As in `planarimpact.lumped.rebound`.
-    loss : str or array_like of str, optional
+    loss : str, optional
         "viscous" or "plastic"; without one, whether there is an answer with both of them.
 
     Returns
@@ -64,10 +65,10 @@ def covers(
     --------
     >>> covers(3.5, [0.8, 1.21, 3.4], 0.8).tolist()
     [False, True, False]
-    >>> covers(3.5, 1.21, 0.2, ["viscous", "plastic"]).tolist()
-    [True, False]
+    >>> covers(3.5, [0.8, 1.21, 3.4], 0.2, loss="viscous").tolist()
+    [False, True, True]
     """
-    plastic = checks.losses(loss, SPHERES) != CODES[VISCOUS]
+    plastic = np.array(loss is None or checks.loss(loss, SPHERES) == PLASTIC.name)
     return _covers(mass_ratio, stiffness_ratio, restitution, plastic)
 
 
