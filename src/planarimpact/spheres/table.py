@@ -32,7 +32,7 @@ ROOTS = {
     "plastic_middle": (EVEN, LEFT, RIGHT, RIGHT),
     "plastic_high": (EVEN, LEFT, RIGHT, RIGHT),
 }
-# By loss the bounds of b, and the least e: a little wider than those that `spheres` admits.
+# By loss the bounds of b, and the least e: wider than those that `spheres` admits.
 SPANS = {"viscous": (1.01, 4.1, 0.095), "plastic": (1.55, 3.55, 0.295)}
 # Slip throughout begins at this share of its threshold, because of rounding.
 NEARLY = 1 - 2.0**-50
