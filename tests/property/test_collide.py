@@ -200,13 +200,14 @@ def sprayed(rng):
     """
     near = np.array([0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3, 2e-2, -2e-2])
     rows = []
-    for e in (*spheres.LEAST_RESTITUTION * (1 + near[:3]), 0.6, rng.uniform(0.3, 0.9), 1 - 1e-9, 1):
+    ends = 0.1, 0.1 * (1 + near[1]), *0.3 * (1 + near[:3])  # nothing is solved below 0.1
+    for e in (*ends, 0.6, rng.uniform(0.3, 0.9), 1 - 1e-9, 1):
         for zeta2 in (1.0, rng.uniform(1.0, 1.5), 1.5):
             for loss in spheres.LOSSES:
-                least = max(e, 0.3)
+                least = max(e, spheres.LEAST_RESTITUTION[loss])
                 limit = float(continuum.slip_throughout_limit(3.5, zeta2, least, loss=loss))
                 table = spheres.table.shipped()
-                _, tabled, _ = spheres.table.of_one(table, 0.0, 3.5 / zeta2, least, True)
+                _, tabled, _ = spheres.table.of_one(table, 0.0, 3.5 / zeta2, max(e, 0.3), True)
                 at = zeta2, 3.5, limit, tabled * zeta2, (limit + tabled * zeta2) / 2
                 rows += [(zeta2, e, loss, x) for x in (*at, rng.uniform(0, 9))]
     zeta2, e, loss, x = map(np.array, zip(*rows, strict=True))

@@ -182,16 +182,18 @@ def _answer(
     mu v2(0).
     """
     x = v1 / unit
-    b, y = beta / zeta2, x / zeta2
-    covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1 and x >= LEAST
-    if not (covered and zeta2 <= spheres.LARGEST_STIFFNESS and spheres.LEAST_RESTITUTION <= e <= 1):
+    b, y, loss = beta / zeta2, x / zeta2, "plastic" if yields else "viscous"
+    covered = spheres.LEAST_RATIO[loss] <= b <= spheres.LARGEST_RATIO[loss] and beta >= 1
+    covered = covered and x >= LEAST and zeta2 <= spheres.LARGEST_STIFFNESS
+    if not (covered and spheres.LEAST_RESTITUTION[loss] <= e <= 1):
         return None
     panel, slides_from, share = table.of_one(table.shipped(), y, b, e, yields)
     if yields and abs(y / slides_from - 1) < UNSURE:
         return None
     if y >= slides_from:
         return -(1 + e) * beta * unit, 0.0, Regime.SLIP_THROUGHOUT
-    error = float(table_error(spheres.PANEL_BOUND[panel], beta, x))
+    growth = max(zeta2 / spheres.STATED_STIFFNESS, 1.0)
+    error = float(table_error(spheres.PANEL_BOUND[panel] * growth, beta, x))
     if error > tolerance:
         return None
     w = min(max(share * zeta2, -x, x - (1 + e) * beta), x) * unit

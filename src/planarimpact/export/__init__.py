@@ -179,28 +179,33 @@ def _public(bounds: Mapping[str, float]) -> dict[str, float]:
         # 0 is none of them, so that a loss which nobody states is not taken for one.
         **{loss.upper(): code for code, loss in enumerate(spheres.LOSSES, 1)},
         "INCIDENCE_MAX": checks.LARGEST,
-        "RESTITUTION_MIN": spheres.LEAST_RESTITUTION,
+        **_by_loss("RESTITUTION_MIN", spheres.LEAST_RESTITUTION),
         "STIFFNESS_MAX": spheres.LARGEST_STIFFNESS,
-        "RATIO_MIN": spheres.LEAST_RATIO,
-        "RATIO_MAX": spheres.LARGEST_RATIO,
-        **{f"ERROR_{loss.upper()}": bound for loss, bound in bounds.items()},
+        **_by_loss("RATIO_MIN", spheres.LEAST_RATIO),
+        **_by_loss("RATIO_MAX", spheres.LARGEST_RATIO),
+        **_by_loss("ERROR", bounds),
+        "STIFFNESS_STATED": spheres.STATED_STIFFNESS,
         **{regime.name: regime.value for regime in Regime},
     }
+
+
+def _by_loss(name: str, values: Mapping[str, float]) -> dict[str, float]:
+    """A constant for each loss."""
+    return {f"{name}_{loss.upper()}": value for loss, value in values.items()}
 
 
 def _private(table: Table) -> dict[str, float]:
     """Constants that the functions use."""
     return {
-        "B_LEAST": tables.B_LEAST,
-        "B_SPAN": tables.B_MOST - tables.B_LEAST,
-        "E_LEAST": tables.E_LEAST,
-        "E_SPAN": 1 - tables.E_LEAST,
+        **_by_loss("B_LEAST", {loss: b for loss, (b, _, _) in tables.SPANS.items()}),
+        **_by_loss("B_SPAN", {loss: most - b for loss, (b, most, _) in tables.SPANS.items()}),
+        **_by_loss("E_LEAST", {loss: e for loss, (_, _, e) in tables.SPANS.items()}),
         "UNIT": 2.0**-table.exponent,
         "INCIDENCE_LEAST": checks.LEAST_INCIDENCE,
         "MASS_RATIO_MOST": checks.LARGEST,
         "STIFFNESS_MOST": spheres.LARGEST_STIFFNESS * (1 + spheres.ROUNDING),
-        "RATIO_LEAST": spheres.LEAST_RATIO * (1 - spheres.ROUNDING),
-        "RATIO_MOST": spheres.LARGEST_RATIO * (1 + spheres.ROUNDING),
+        "RATIO_LEAST": 1 - spheres.ROUNDING,
+        "RATIO_MOST": 1 + spheres.ROUNDING,
         "NEARLY": tables.NEARLY,
         "LEFT": LEFT,
         "RIGHT": RIGHT,

@@ -121,7 +121,7 @@ export function bounce(
 /**
  * How far the velocity of the contact point after the impact would move with the other loss.
  * @param contact the arguments of `collide`
- * @returns [m/s]; NaN where the contact sticks below RESTITUTION_MIN, or without impact
+ * @returns [m/s]; NaN where the table lacks one of the losses, or without impact
  * @throws {RangeError} as `collide`
  */
 export function model_form(...contact: Parameters<typeof collide>): number;

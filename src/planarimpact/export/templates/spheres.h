@@ -166,8 +166,10 @@ static inline double spheres_sticking(
 
 static inline struct spheres_spot spheres_find(double y, double b, double e, int loss)
 {
-    const double least = SPHERES_E_LEAST, unit = SPHERES_UNIT;
-    double u = (b - SPHERES_B_LEAST) / SPHERES_B_SPAN, at = u * SPHERES_INTERVALS, t, over, across;
+    const double least = SPHERES_E_LEAST_PLASTIC, unit = SPHERES_UNIT;
+    double u = loss == SPHERES_VISCOUS ? (b - SPHERES_B_LEAST_VISCOUS) / SPHERES_B_SPAN_VISCOUS
+        : (b - SPHERES_B_LEAST_PLASTIC) / SPHERES_B_SPAN_PLASTIC;
+    double at = u * SPHERES_INTERVALS, t, over, across;
     double edge[6] = {0}, varying[2] = {0}, low, high, width, s, alike = b + e * (b - 1);
     const double *limit = spheres_limits + spheres_index(at, SPHERES_INTERVALS);
     const double *above = limit + SPHERES_INTERVALS + 1;
@@ -179,7 +181,7 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
     const int *patch;
     struct spheres_spot spot;
     if (which == 0)
-        t = (e - least) / SPHERES_E_SPAN;
+        t = (e - SPHERES_E_LEAST_VISCOUS) / (1 - SPHERES_E_LEAST_VISCOUS);
     else if (which == 1)
         t = 1 - sqrt(spheres_clipped(least / e - least / low_e, 0, 1) / (1 - least / low_e));
     else if (which == 2)
@@ -203,8 +205,8 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
     }
     edge[1] = 1;
     if (which == 0) {
-        edge[2] = varying[0];
-        edge[3] = varying[1] < b ? varying[1] : b;
+        edge[2] = 1 + (b - 1) * varying[0];
+        edge[3] = 1 + (b - 1) * varying[1];
         edge[4] = b;
         edge[5] = alike;
     } else {
@@ -241,6 +243,13 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
     return spot;
 }
 
+/* The least restitution of a loss in the table. */
+static inline double spheres_least_restitution(int loss)
+{
+    return loss == SPHERES_VISCOUS ? SPHERES_RESTITUTION_MIN_VISCOUS
+        : SPHERES_RESTITUTION_MIN_PLASTIC;
+}
+
 /* Whether the table has an answer. */
 static inline int spheres_covers(
     double x, double mass_ratio, double stiffness_ratio, double restitution, int loss)
@@ -249,8 +258,11 @@ static inline int spheres_covers(
     return fabs(x) <= SPHERES_INCIDENCE_MAX
         && mass_ratio >= 1 && mass_ratio <= SPHERES_MASS_RATIO_MOST
         && stiffness_ratio <= SPHERES_STIFFNESS_MOST
-        && ratio >= SPHERES_RATIO_LEAST && ratio <= SPHERES_RATIO_MOST
-        && restitution >= SPHERES_RESTITUTION_MIN && restitution <= 1
+        && ratio >= SPHERES_RATIO_LEAST
+            * (loss == SPHERES_VISCOUS ? SPHERES_RATIO_MIN_VISCOUS : SPHERES_RATIO_MIN_PLASTIC)
+        && ratio <= SPHERES_RATIO_MOST
+            * (loss == SPHERES_VISCOUS ? SPHERES_RATIO_MAX_VISCOUS : SPHERES_RATIO_MAX_PLASTIC)
+        && restitution >= spheres_least_restitution(loss) && restitution <= 1
         && (loss == SPHERES_VISCOUS || loss == SPHERES_PLASTIC);
 }
 
@@ -556,9 +568,16 @@ static inline const char *spheres_before(
     other_arm = other.radius / other.gyration;
     impact->beta = (1 + arm * arm) * impact->share
         + (1 + other_arm * other_arm) * impact->other_share;
-    if (!spheres_covers(0, impact->beta, pair.stiffness_ratio, 1, SPHERES_VISCOUS))
-        return "mass_ratio/stiffness_ratio: allowed is a number from "
-            SPHERES_TEXT(SPHERES_RATIO_MIN) " to " SPHERES_TEXT(SPHERES_RATIO_MAX);
+    impact->loss = pair.loss == SPHERES_PLASTIC || pair.yield_pressure > 0
+        ? SPHERES_PLASTIC : SPHERES_VISCOUS;
+    if (!spheres_covers(0, impact->beta, pair.stiffness_ratio, 1, impact->loss))
+        return impact->loss == SPHERES_VISCOUS
+            ? "mass_ratio/stiffness_ratio: allowed is a number from "
+                SPHERES_TEXT(SPHERES_RATIO_MIN_VISCOUS) " to "
+                SPHERES_TEXT(SPHERES_RATIO_MAX_VISCOUS) " with this loss"
+            : "mass_ratio/stiffness_ratio: allowed is a number from "
+                SPHERES_TEXT(SPHERES_RATIO_MIN_PLASTIC) " to "
+                SPHERES_TEXT(SPHERES_RATIO_MAX_PLASTIC) " with this loss";
 
     if (is_fixed + (pair.relaxation_time != 0) + (pair.yield_pressure != 0) != 1)
         return "pair: allowed is either restitution with loss, or one of relaxation_time and "
@@ -616,8 +635,6 @@ static inline const char *spheres_before(
         return "pair.relaxation_time: allowed is a number so small that e is above "
             SPHERES_TEXT(SPHERES_LEAST);
     }
-    impact->loss = pair.loss == SPHERES_PLASTIC || pair.yield_pressure > 0
-        ? SPHERES_PLASTIC : SPHERES_VISCOUS;
     if (impact->e == 1) /* nothing is lost: the table of viscous spheres is nearer */
         impact->loss = SPHERES_VISCOUS;
     impact->normal = n;
@@ -636,8 +653,8 @@ static inline const char *spheres_before(
 static inline double spheres_change(const struct spheres_impact *impact, int loss, int *regime)
 {
     double x = impact->x, beta = impact->beta, zeta2 = impact->zeta2, e = impact->e;
-    double slides = 0.0 - (1 + e) * beta;
-    int known = e >= SPHERES_RESTITUTION_MIN;
+    double slides = 0.0 - (1 + e) * beta, least = spheres_least_restitution(loss);
+    int known = e >= least;
     struct spheres_spot spot;
     *regime = SPHERES_STICK;
     if (!(x > 0))
@@ -645,7 +662,7 @@ static inline double spheres_change(const struct spheres_impact *impact, int los
     *regime = SPHERES_SLIP_THROUGHOUT;
     if (x > SPHERES_INCIDENCE_MAX || (loss == SPHERES_VISCOUS && x >= beta + e * (beta - zeta2)))
         return slides;
-    spot = spheres_find(x / zeta2, beta / zeta2, known ? e : SPHERES_RESTITUTION_MIN, loss);
+    spot = spheres_find(x / zeta2, beta / zeta2, known ? e : least, loss);
     if (known && spot.slides)
         return slides;
     *regime = !known ? SPHERES_UNRESOLVED
@@ -699,6 +716,7 @@ static inline struct spheres_collision spheres_collide(
         after.error_bound = 0;
     else if (after.regime != SPHERES_UNRESOLVED)
         after.error_bound = (impact.unit < impact.v1 ? impact.unit : impact.v1)
+            * (impact.zeta2 > SPHERES_STIFFNESS_STATED ? impact.zeta2 / SPHERES_STIFFNESS_STATED : 1)
             * (impact.loss == SPHERES_VISCOUS ? SPHERES_ERROR_VISCOUS : SPHERES_ERROR_PLASTIC);
     return after;
 }
@@ -746,6 +764,8 @@ static inline double spheres_model_form(
         return (double)NAN;
     if (!(impact.e < 1))
         return 0;
+    if (!spheres_covers(0, impact.beta, impact.zeta2, 1, SPHERES_PLASTIC))
+        return (double)NAN;
     viscous = spheres_change(&impact, SPHERES_VISCOUS, &one);
     plastic = spheres_change(&impact, SPHERES_PLASTIC, &two);
     if (one == SPHERES_UNRESOLVED || two == SPHERES_UNRESOLVED)

@@ -131,15 +131,18 @@ function place(value, count) {
 
 // Where an impact is: what the splines need, and what follows from its edges.
 function find(y, b, e, loss) {
-    const u = (b - B_LEAST) / B_SPAN, interval = index_of(u * INTERVALS, INTERVALS);
-    const part = u * INTERVALS - interval, alike = b + e * (b - 1);
+    const viscous = loss === VISCOUS;
+    const u = viscous ? (b - B_LEAST_VISCOUS) / B_SPAN_VISCOUS
+        : (b - B_LEAST_PLASTIC) / B_SPAN_PLASTIC;
+    const interval = index_of(u * INTERVALS, INTERVALS);
+    const part = u * INTERVALS - interval, alike = b + e * (b - 1), least = E_LEAST_PLASTIC;
     const between = (k) => (1 - part) * limits[k] + part * limits[k + 1];
     const low_e = between(interval), high_e = between(interval + INTERVALS + 1);
-    const which = loss === VISCOUS ? 0 : e < low_e ? 1 : e < high_e ? 2 : 3, panel = panels[which];
+    const which = viscous ? 0 : e < low_e ? 1 : e < high_e ? 2 : 3, panel = panels[which];
     let t = 0;
-    if (which === 0) t = (e - E_LEAST) / E_SPAN;
+    if (which === 0) t = (e - E_LEAST_VISCOUS) / (1 - E_LEAST_VISCOUS);
     else if (which === 1)
-        t = 1 - Math.sqrt(clipped(E_LEAST / e - E_LEAST / low_e, 0, 1) / (1 - E_LEAST / low_e));
+        t = 1 - Math.sqrt(clipped(least / e - least / low_e, 0, 1) / (1 - least / low_e));
     else if (which === 2) t = (e - low_e) / (high_e - low_e);
     else t = Math.sqrt(Math.sqrt((1 - e) / (1 - high_e)));
 
@@ -158,7 +161,7 @@ function find(y, b, e, loss) {
     }
     const third = which === 3 ? b : varying[0];
     const edge = which === 0
-        ? [0, 1, varying[0], Math.min(varying[1], b), b, alike]
+        ? [0, 1, 1 + (b - 1) * varying[0], 1 + (b - 1) * varying[1], b, alike]
         : [0, 1, (1 + third) / 2, third, which === 1 ? varying[1] : alike];
 
     // The patch, and s in it.
@@ -212,12 +215,24 @@ function sticking(spot, x, zeta2, sliding) {
     return clipped(zeta2 * share + 0, sliding > 0 - x ? sliding : 0 - x, x);
 }
 
+// The range of the table, by loss.
+function least_restitution(loss) {
+    return loss === VISCOUS ? RESTITUTION_MIN_VISCOUS : RESTITUTION_MIN_PLASTIC;
+}
+function least_ratio(loss) {
+    return loss === VISCOUS ? RATIO_MIN_VISCOUS : RATIO_MIN_PLASTIC;
+}
+function largest_ratio(loss) {
+    return loss === VISCOUS ? RATIO_MAX_VISCOUS : RATIO_MAX_PLASTIC;
+}
+
 // Whether the table has an answer.
 export function covers(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const ratio = mass_ratio / stiffness_ratio;
     return Math.abs(x) <= INCIDENCE_MAX && mass_ratio >= 1 && mass_ratio <= MASS_RATIO_MOST
-        && stiffness_ratio <= STIFFNESS_MOST && ratio >= RATIO_LEAST && ratio <= RATIO_MOST
-        && restitution >= RESTITUTION_MIN && restitution <= 1
+        && stiffness_ratio <= STIFFNESS_MOST && ratio >= least_ratio(loss) * RATIO_LEAST
+        && ratio <= largest_ratio(loss) * RATIO_MOST
+        && restitution >= least_restitution(loss) && restitution <= 1
         && (loss === VISCOUS || loss === PLASTIC);
 }
 
@@ -447,8 +462,9 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     const other_share = other_inverse / (inverse + other_inverse);
     const arm = body.radius / body.gyration, other_arm = other.radius / other.gyration;
     const beta = (1 + arm * arm) * share + (1 + other_arm * other_arm) * other_share;
-    if (!covers(0, beta, zeta2, 1, VISCOUS)) {
-        const allowed = `a number from ${RATIO_MIN} to ${RATIO_MAX}`;
+    const own = pair.loss === PLASTIC || pair.yield_pressure > 0 ? PLASTIC : VISCOUS;
+    if (!covers(0, beta, zeta2, 1, own)) {
+        const allowed = `a number from ${least_ratio(own)} to ${largest_ratio(own)} with this loss`;
         throw refusal("mass_ratio/stiffness_ratio", beta / zeta2, allowed);
     }
     check_laws(pair);
@@ -503,11 +519,11 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
 
 // What an impact of this loss adds to x, the tangential velocity, and its regime.
 function change({ x, beta, zeta2, e }, loss) {
-    const slides = 0 - (1 + e) * beta, known = e >= RESTITUTION_MIN;
+    const slides = 0 - (1 + e) * beta, least = least_restitution(loss), known = e >= least;
     if (!(x > 0)) return { added: 0, regime: STICK };
     if (x > INCIDENCE_MAX || (loss === VISCOUS && x >= beta + e * (beta - zeta2)))
         return { added: slides, regime: SLIP_THROUGHOUT };
-    const spot = find(x / zeta2, beta / zeta2, known ? e : RESTITUTION_MIN, loss);
+    const spot = find(x / zeta2, beta / zeta2, known ? e : least, loss);
     if (known && spot.slides) return { added: slides, regime: SLIP_THROUGHOUT };
     const regime = !known ? UNRESOLVED : x > zeta2 ? SLIP_STICK_SLIP : STICK_SLIP;
     return { added: spot.slides ? slides : sticking(spot, x, zeta2, x + slides) - x, regime };
@@ -543,6 +559,7 @@ export function collide(
     const other_turned =
         twist * impact.other_share * (other.radius / other.gyration) / other.gyration;
     let error_bound = Math.min(impact.unit, impact.v1)
+        * Math.max(impact.zeta2 / STIFFNESS_STATED, 1)
         * (impact.loss === VISCOUS ? ERROR_VISCOUS : ERROR_PLASTIC);
     if (regime === STICK || regime === SLIP_THROUGHOUT) error_bound = 0;
     else if (regime === UNRESOLVED) error_bound = NaN;
@@ -569,6 +586,7 @@ export function model_form(...contact) {
     const impact = before(...contact);
     if (!impact) return NaN;
     if (impact.e === 1) return 0;
+    if (!covers(0, impact.beta, impact.zeta2, 1, PLASTIC)) return NaN;
     const viscous = change(impact, VISCOUS), plastic = change(impact, PLASTIC);
     if (viscous.regime === UNRESOLVED || plastic.regime === UNRESOLVED) return NaN;
     return impact.unit * Math.abs(viscous.added - plastic.added);

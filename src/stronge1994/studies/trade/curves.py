@@ -215,7 +215,8 @@ def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
     """
     loss = loss or losses.VISCOUS.name
     lowest = groups | {"restitution": groups["restitution"] - 2 * models.RESTITUTION_ERROR}
-    if spheres.covers(**lowest):
+    order = "mass_ratio", "stiffness_ratio", "restitution"
+    if spheres.covers(*(lowest[name] for name in order)):
         return models.input_spread(f"spheres.{loss}", x, **groups)
     return models.input_spread(f"continuum.{loss}", x, **groups, tolerance=SPREAD_TOLERANCE)
 
