@@ -92,6 +92,15 @@ def test_the_softer_material_gives_restitution_and_loss(pair, words):
     assert words in models.compare(*pair, **SLIPS)[1][0]
 
 
+def test_the_notes_have_cautions():
+    """Unlike bodies and a friction above that of the plastic law."""
+    said = " ".join(models.compare("steel", "glass", **SLIPS | {"friction": 0.05}).notes)
+    assert "caution: the bodies spread differently" in said
+    said = models.compare("steel", "steel", **SLIPS | {"friction": 0.3}, restitution=0.9).notes
+    assert any(note.startswith("caution: friction is above") for note in said)
+    assert not any("spread" in note for note in said)
+
+
 def test_a_model_that_refuses_the_pair_is_left_out():
     """The table of spheres ends at a restitution of 0.3."""
     found = models.compare("steel", "steel", **SLIPS, restitution=0.2).columns["model"]

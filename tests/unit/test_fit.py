@@ -220,6 +220,13 @@ def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law):
     assert float(said[1]) == pytest.approx(e, abs=2e-3) and float(said[2]) == one.restitution
 
 
+def test_the_lines_say_where_the_law_is_not_known_to_hold():
+    one = found("mercurydpm", "lossy")
+    assert "caution" not in fit.lines(one, SOFT, **SPHERE)
+    lines = fit.lines(one, SOFT, **SPHERE | {"friction": 0.3})
+    assert re.search("^// caution: friction is above .*plastic 0.2", lines, re.MULTILINE)
+
+
 def stored_overlaps():
     """Costs in `overlap.csv`, by pair, law and friction, and by overlap."""
     with open(ROOT / "data/lammps/overlap.csv", newline="") as file:
