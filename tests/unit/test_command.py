@@ -53,7 +53,8 @@ def test_rebound_says_beside_the_table_where_a_law_is_not_known_to_hold(capsys):
         assert main([*given.split(), "--friction", friction]) == 0
         said = capsys.readouterr().err
         assert said.startswith(words) and bool(said) == bool(words)
-    assert main(["rebound", "--incidence", "2", "--restitution", "0.9", "--model", "lumped.hysteretic"]) == 0
+    given = "rebound --incidence 2 --restitution 0.9 --model lumped.hysteretic"
+    assert main(given.split()) == 0
     assert "caution: restitution is below" in capsys.readouterr().err
 
 
