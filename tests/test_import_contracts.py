@@ -23,7 +23,7 @@ SOLVER = {
     "lumped": "common phases",
     "continuum": "common normal_impact",
     "bodies": "common normal_impact",
-    "noncollinear": "common bodies phases",
+    "noncollinear": "common phases",
     "spheres": "common normal_impact continuum",
     "models": "common normal_impact rigid lumped continuum spheres bodies pandas",
     "export": "planarimpact common normal_impact collision spheres",

@@ -182,7 +182,6 @@ OTHERWISE = {
     noncollinear.history: {"friction": ("from 0", 0.5), "loss": ("loss", "hysteretic")},
     noncollinear.rebound: {"friction": ("from 0", 0.5), "loss": ("loss", "hysteretic")},
     noncollinear.kinetic_energy: MOTION,
-    noncollinear.motion_after: {"impulses": ("record", (0.0, 1.0))},
     spheres.covers: dict.fromkeys(("mass_ratio", "stiffness_ratio", "restitution"), ("real", 1.0)),
     spheres.rebound: {"restitution": ("unit_interval", 0.5)},
     rigid_noncollinear.rebound: {"friction": ("from 0", 0.5), "law": ("word", "energetic")},

@@ -40,10 +40,8 @@ from planarimpact.noncollinear.configuration import (
     InverseMass,
     checked_impact,
     combined,
-    contact_velocity,
     fields_of,
     inverse_mass,
-    motion_after,
 )
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
 from planarimpact.phases import Step
@@ -55,11 +53,9 @@ __all__ = [
     "NoncollinearHistory",
     "NoncollinearRebound",
     "combined",
-    "contact_velocity",
     "history",
     "inverse_mass",
     "kinetic_energy",
-    "motion_after",
     "rebound",
     "rigid",
 ]
