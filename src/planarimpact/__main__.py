@@ -216,7 +216,7 @@ def _setting(text: str) -> tuple[str, float]:
 def _material(text: str) -> str | tuple[float, ...]:
     """Name of a material, or Young's modulus and Poisson's ratio."""
     moduli = tuple(map(_decimal, text.split(","))) if "," in text else ()
-    if len(moduli) not in (0, 2):
+    if len(moduli) not in (0, 2) or NUMBER.fullmatch(text):
         raise argparse.ArgumentTypeError(f"{text!a}: allowed are NAME, and E,NU such as 2e11,0.3")
     return moduli or text
 

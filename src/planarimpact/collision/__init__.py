@@ -79,6 +79,8 @@ class Collision:
     loss_code : ndarray of int, shape (...)
         Of the loss, in `planarimpact.common.losses.NAMES`; -1 where e = 1 or without an impact.
         It is that of the model, where one was asked for that has a loss.
+    model, model_form, caution, energy_lost
+        Computed when they are asked for; their own help says more.
     """
 
     velocity: Array
@@ -117,7 +119,8 @@ class Collision:
     def caution(self) -> Integers | Caution:
         """Why the answer may not hold, as codes of `Caution`; 0 where nothing is known against it.
 
-        Nothing is known of bodies that are given by a stiffness ratio in place of their materials.
+        `collision.Caution(code).text` has the words. Nothing is known of bodies that are given by a
+        stiffness ratio in place of their materials.
 
         >>> from planarimpact import bodies
         >>> steel = Pair(bodies.Material(2e11, 0.3), friction=0.3, restitution=0.9, loss="plastic")
@@ -302,7 +305,7 @@ def _collide_arrays(
         raise Unsolved(f"{_place(approach[i], shape)}{problem}", approach[[i]])
     whole = partial(_whole, approach, given.v2.size, shape)
     numbers = Impacts._make([None] * 6 + [*met[6:]])  # in less memory, also where it is pickled
-    name = model.name if model else "noncollinear" if plane else ""
+    asked = [model] if model else [*off_centre.LUMPED.values()] if plane else []
     micro_slip = model is not None and methods.has_micro_slip(model)
     facts = partial(
         Facts,
@@ -311,7 +314,7 @@ def _collide_arrays(
         answer.place.astype(np.int8),
         answer.change,
         answer.regime,
-        name,
+        tuple(one.name for one in asked),
         micro_slip,
         energies,
     )

@@ -34,8 +34,8 @@ class Facts(NamedTuple):
         It needs no vectors.
     place, change, regime : ndarray, shape (n,)
         As in `methods.Answers`.
-    asked : str
-        Name of the model that was asked for, or an empty text.
+    asked : tuple of str
+        Names of the models that were asked for.
     micro_slip : bool
         Whether the model that was asked for has it.
     energies : tuple of ndarray, shape (n,), or None
@@ -49,14 +49,14 @@ class Facts(NamedTuple):
     place: Integers
     change: Array
     regime: Integers
-    asked: str = ""
+    asked: tuple[str, ...] = ()
     micro_slip: bool = False
     energies: tuple[Array, Array] | None = None
     form: Array | None = None
 
     def model(self) -> Any:
         """Names of the models that answered."""
-        return np.array([*MODELS, self.asked, NO_IMPACT])[self.whole(self.place, -1)]
+        return np.array([*MODELS, *self.asked, NO_IMPACT])[self.whole(self.place, -1)]
 
     def model_form(self) -> Array:
         """How far the velocity of the contact point would move with the other loss [m/s]."""
@@ -85,7 +85,7 @@ def cautions(
 
     Where the contact slides throughout, Coulomb's law alone decides; head-on nothing does.
     """
-    moves = (impacts.v1 > 0) | (place == methods.ASKED)
+    moves = (impacts.v1 > 0) | (place >= methods.ASKED)
     sticks = moves & (regime != Regime.SLIP_THROUGHOUT)
     dissimilar = impacts.dundurs > bodies.COUPLING * impacts.friction
     codes = Caution.codes(impacts.loss_code, impacts.friction, impacts.restitution, dissimilar)

@@ -63,8 +63,9 @@ METHODS = (
     ),
 )
 SLIDING, HEAD_ON = map(METHODS.index, FORMULAS)
-ASKED = len(METHODS)  # the place of a model that a caller has asked for
-IS_CONTINUUM = np.array([method not in FORMULAS for method in METHODS] + [False])
+# From this place on are models that a caller has asked for, at most two.
+ASKED = len(METHODS)
+IS_CONTINUUM = np.array([method not in FORMULAS for method in METHODS] + [False] * 2)
 IS_SOLVED = np.array([method.way == "solved" for method in METHODS])
 
 
@@ -127,7 +128,7 @@ def answers(
     place, error = of_each(impacts, tolerance)
     result = _by_formulas(impacts, place, error)
     needs = np.flatnonzero(IS_SOLVED[place] & ~np.asarray(solve)).tolist()
-    said = "solve = False: it needs the continuum, solved, as {}; allowed are others"
+    said = "solve = False: it needs the continuum, solved, as {}; choose a model, or solve = True"
     result.refused.update({i: said.format(METHODS[place[i]].why) for i in needs})
     for number in np.unique(np.delete(place, needs)).tolist():
         if IS_CONTINUUM[number]:

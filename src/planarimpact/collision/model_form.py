@@ -26,7 +26,7 @@ def model_forms(impacts: Impacts, place: Integers, velocity: Array) -> Array:
     form = np.zeros(impacts.v1.size)
     lossy = (impacts.loss_code >= 0) & (place != methods.HEAD_ON)
     form[lossy] = np.nan
-    known = lossy & (place != methods.ASKED) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
+    known = lossy & (place < methods.ASKED) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
     # What yields slides throughout only where viscous spheres do.
     form[(place == methods.SLIDING) & (impacts.loss_code == CODES[PLASTIC])] = 0.0
     known &= np.isnan(form)

@@ -22,7 +22,7 @@ from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import InputError, OutOfRange
-from planarimpact.common.losses import NAMES, NONCOLLINEAR
+from planarimpact.common.losses import BY_NAME, NAMES, NONCOLLINEAR
 from planarimpact.common.results import Regime
 from planarimpact.models import MODELS, Model
 from planarimpact.noncollinear import InverseMass, NoncollinearRebound
@@ -31,6 +31,7 @@ from planarimpact.noncollinear import InverseMass, NoncollinearRebound
 LUMPED = {name: MODELS[f"lumped.{name}"] for name in NONCOLLINEAR}
 CHOICES = (*LUMPED.values(), MODELS["rigid"])
 ALLOWED = f"allowed is {' or '.join(LUMPED)}"
+UNLOADING = [*BY_NAME].index("unloading-stiffness")
 GIVEN_UP = "the solver of bodies off their centre gave up; see noncollinear.rebound"
 # Share of a vector that may be out of the plane.
 OUT = checks.LENGTH_ERROR
@@ -114,6 +115,8 @@ def answers(
     fields = [np.zeros(count) for _ in range(5)]
     velocity, friction, push, normal_loss, work = fields
     place, error = np.full(count, methods.ASKED), np.full(count, np.nan)
+    if model is None:
+        place += impacts.loss_code == UNLOADING
     regime = np.full(count, Regime.UNRESOLVED, np.uint8)
     result = Answers(place, np.zeros(count), velocity, error, regime, error, {}, {})
     names = np.where(impacts.loss_code < 0, "hysteretic", NAMES[impacts.loss_code])
@@ -142,6 +145,10 @@ def answers(
         else:  # the work of each impulse; their sum is exact
             normal_loss[rows] = found.normal_impulse * (impacts.v2[rows] + found.normal) / 2
             work[rows] = found.tangential_impulse * (impacts.v1[rows] + found.tangential) / 2
+            limit = impacts.friction[rows] * found.normal_impulse * (1 - 1e-12)
+            slides = (found.tangential > 0) & (found.tangential_impulse >= limit)
+            regime[rows[slides]] = Regime.SLIP_THROUGHOUT
+            regime[rows[found.tangential == 0]] = Regime.SLIP_STICK
     result.change[:] = velocity - impacts.v1
     return result, np.array([friction, push]), (normal_loss, work)
 

@@ -47,7 +47,7 @@ CODES = {name: np.array(code, np.int8) for code, name in enumerate(losses.BY_NAM
 
 def facts(
     pair: Pair,
-    asked: str,
+    asked: tuple[str, ...],
     place: int,
     v1: float,
     v2: float,
@@ -125,8 +125,9 @@ def collide(
             e = _viscous_restitution(*quantities, v2, relaxation_time)
     unit = mu * v2
     loss_code = pair.loss_code if e < 1 else NONE
+    asked = (model.name,) if model else ()
     if model:
-        answer, place, asked = _by_model(model, v1, unit, beta, zeta2, e), ASKED, model.name
+        answer = _by_model(model, v1, unit, beta, zeta2, e)
         loss_code = CODES.get(model.loss, loss_code) if e < 1 else NONE
     elif code > PLASTIC:  # the continuum has no such loss
         return []
@@ -135,8 +136,7 @@ def collide(
     if not answer:
         return []
     change, error, regime = answer
-    if not model:
-        place, asked = TABLED[int(loss_code)] if error else SLIDING, ""
+    place = ASKED if model else TABLED[int(loss_code)] if error else SLIDING
     push = [(1 + e) * v2 * m2 * component for component in normal]
     impulse = _sum(push, change / beta / v1 * m2, tangential)
     moment = cross(normal, impulse)

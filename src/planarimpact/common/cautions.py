@@ -26,7 +26,7 @@ class Caution(IntFlag, metaclass=Members):
     --------
     >>> print(Caution.of("plastic", friction=0.4, restitution=0.8).text)
     friction is above what the loss is known to hold for (plastic 0.2): there it exceeds the shear \
-strength of the surface, and the velocity may be off by up to 0.9 mu v2(0)
+strength of the surface, and solid spheres are off by up to 0.9 mu v2(0)
     """
 
     RESTITUTION = 1
@@ -67,10 +67,10 @@ def _listed(numbers: Array, but: float) -> str:
 
 _TEXTS = {
     Caution.RESTITUTION: "restitution is below what the loss is known to hold from "
-    f"({_listed(_FROM, 0)}): the velocity may be off by up to 0.9 mu v2(0)",
+    f"({_listed(_FROM, 0)}): solid spheres are off by up to 0.9 mu v2(0)",
     Caution.FRICTION: "friction is above what the loss is known to hold for "
     f"({_listed(_TO_FRICTION, np.inf)}): there it exceeds the shear strength of the surface, and "
-    "the velocity may be off by up to 0.9 mu v2(0)",
+    "solid spheres are off by up to 0.9 mu v2(0)",
     Caution.DISSIMILAR: "the bodies spread differently under pressure (bodies.dundurs), which no "
     "model has: the velocity may be off by more than 0.1 mu v2(0), with plastic loss up to 0.5",
     Caution.NO_MICRO_SLIP: "the model has no micro-slip: its error against the continuum is not "
