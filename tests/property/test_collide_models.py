@@ -1,5 +1,8 @@
 """`collide` with a model that is asked for, with offsets, without solving; cautions and energy."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -10,6 +13,7 @@ from planarimpact import (
     Regime,
     bodies,
     collide,
+    collision,
     models,
     noncollinear,
 )
@@ -118,19 +122,28 @@ def test_one_impact_by_a_model_is_that_of_many(model):
     assert taken > 0.9 * 5 * 4 * x.size
 
 
-def test_a_model_form_of_one_impact_is_that_of_many():
+@pytest.mark.parametrize("model", [None, "rigid"])
+@pytest.mark.parametrize("friction", [0.3, 0.0])
+@pytest.mark.parametrize("loss", ["viscous", "plastic"])
+def test_all_that_one_impact_has_is_that_of_many(loss, friction, model, monkeypatch):
+    """From stick to slip throughout, head-on, without friction, and where nothing meets."""
     velocity = np.linspace([0, 0, -1], [3, 0, -1], 60)
-    for loss in ("viscous", "plastic"):
-        pair = Pair(friction=0.3, stiffness_ratio=1.2, restitution=0.7, loss=loss)
-        many = collide(pair, UP, BALL, velocity, [0, 0, 0])
-        ones = [collide(pair, UP, BALL, row, [0, 0, 0]) for row in velocity]
-        for name in ("model_form", "caution", "model", "energy_lost"):
-            found = np.array([getattr(one, name) for one in ones])
-            if name == "model":
-                assert found.tolist() == many.model.tolist()
-            else:
-                np.testing.assert_allclose(found, getattr(many, name), atol=1e-9)
-        assert many.model_form.max() > 0.05 and many.model_form[-1] == 0
+    velocity[-2:] = [[1, 0, 1], [1, 0, 0]]
+    pair = Pair(STEEL, friction=friction, restitution=0.7, loss=loss)
+    many = collide(pair, UP, BALL, velocity, [0, 0, 0], model=model)
+    whole, seen = collision._collide_arrays, []
+    monkeypatch.setattr(collision, "_collide_arrays", lambda *a: seen.append(a) or whole(*a))
+    ones = [collide(pair, UP, BALL, [*row], [0, 0, 0], model=model) for row in velocity]
+    assert len(seen) <= 2  # next to the incidence where metal slides throughout
+    vectors = "velocity", "spin", "impulse", "other_velocity", "other_spin", "energy_lost"
+    numbers = "incidence", "restitution", "error_bound", "model_form", "caution", "regime"
+    for name in (*vectors, *numbers):
+        found = np.array([getattr(one, name) for one in ones])
+        np.testing.assert_allclose(found, getattr(many, name), atol=1e-9, err_msg=name)
+    for name in ("model", "loss"):
+        assert [str(getattr(one, name)) for one in ones] == getattr(many, name).tolist()
+    if friction and model is None:
+        assert many.model_form[:-2].max() > 0.05 and many.model_form[-3] == 0
 
 
 def test_a_model_refuses_by_the_index_of_the_caller():
@@ -191,6 +204,27 @@ def test_nothing_is_solved_where_it_is_not_wanted():
         collide(pair[0], UP, BALL, [0.5, 0, -1], still, solve=False, model="continuum.plastic")
 
 
+def test_the_other_loss_is_not_solved_where_nothing_may_be():
+    """With viscous loss the table covers e = 0.25, and with plastic loss it does not."""
+    pair = Pair(friction=0.3, stiffness_ratio=1.2, restitution=0.25, loss="viscous")
+    for velocity in ([0.3, 0, -1.0], [[0.3, 0, -1.0]]):
+        arguments = pair, UP, BALL, velocity, [0, 0, 0]
+        assert np.isnan(collide(*arguments, solve=False).model_form).all()
+        assert np.all(collide(*arguments).model_form > 0.01)
+
+
+def test_next_to_slip_throughout_metal_needs_no_more_modules():
+    """As many modules take a quarter of a second to load, which no warm-up would find."""
+    code = (
+        "from planarimpact import Pair, bodies, collide; import sys;"
+        "pair = Pair(friction=0.3, stiffness_ratio=1.2143, restitution=0.5, loss='plastic');"
+        "ball = bodies.solid_sphere(0.01, density=7800.0);"
+        "collide(pair, [0, 0, 1], ball, [0.3 * 5.15, 0, -1.0], [0, 0, 0], solve=False);"
+        "assert 'scipy' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
 RUBBER = bodies.Material(5e6, 0.5)
 CAUTIONS = [
     ((STEEL, STEEL), {"friction": 0.2, "restitution": 0.4, "loss": "plastic"}, None, 0),
@@ -220,6 +254,24 @@ def test_cautions_are_those_of_the_evidence(materials, values, model, code):
 
 
 # Off the centre.
+
+
+def test_off_the_centre_the_regime_and_the_loss_are_named():
+    """Where the contact slides throughout, the law without compliance says the same."""
+    pair = Pair(
+        friction=[0.05, 0.5, 0.5],
+        stiffness_ratio=1.2,
+        restitution=0.5,
+        loss=["hysteretic", "hysteretic", "unloading-stiffness"],
+    )
+    body = bodies.Body(1.0, 0.3, 0.35)
+    arguments = pair, UP, body, [0.4, 0, -1.0], [0, 0, 0]
+    soft, stiff = (collide(*arguments, offset=[0.1, 0, 0], model=m) for m in (None, "rigid"))
+    assert stiff.regime.tolist() == [Regime.SLIP_THROUGHOUT, *[Regime.SLIP_STICK] * 2]
+    assert soft.regime[0] == Regime.SLIP_THROUGHOUT
+    np.testing.assert_allclose(soft.velocity[0], stiff.velocity[0], rtol=1e-12)
+    assert soft.model.tolist() == [f"lumped.{loss}" for loss in pair.loss]
+    assert soft.caution.tolist() == [0, 9, 9] and stiff.caution[0] == 0
 
 
 def rods(count, seed=5):

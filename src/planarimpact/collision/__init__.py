@@ -111,7 +111,8 @@ class Collision:
         """How far the velocity of the contact point would move with the other loss [m/s].
 
         Without a sign; no tolerance makes it smaller. It is 0 where e = 1, NaN without an impact or
-        where nothing is known. It takes as long as `collide` when it is first asked for.
+        where nothing is known, or where the continuum would have to be solved and may not be. It
+        takes as long as `collide` with the other loss when it is first asked for.
         """
         return self._facts().model_form()
 
@@ -243,7 +244,7 @@ def collide(
         return _collide_arrays(pair, body, other, (*vectors, *offsets), tolerance, chosen, solve)
     if not (chosen and chosen not in one_impact.BY_MODEL):
         floats = [one_impact.floats(vector) for vector in vectors]
-        fields = one_impact.collide(pair, body, other, floats, tolerance, chosen)
+        fields = one_impact.collide(pair, body, other, floats, tolerance, chosen, solve)
         if fields:
             return Collision(*fields)
     return _collide_arrays(pair, body, other, vectors, tolerance, chosen, solve)
@@ -317,6 +318,7 @@ def _collide_arrays(
         tuple(one.name for one in asked),
         micro_slip,
         energies,
+        solve=solve,
     )
     return _collision(given, met, answer, states, whole, facts)
 

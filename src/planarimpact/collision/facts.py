@@ -42,6 +42,8 @@ class Facts(NamedTuple):
         Lost along the normal and along the surface [J], where `mechanics` does not know it.
     form : ndarray or None
         The model form, in its shape, where it is known already.
+    solve : bool
+        Whether the continuum may be solved for it.
     """
 
     whole: Callable[[Any, Any], Any]
@@ -53,6 +55,7 @@ class Facts(NamedTuple):
     micro_slip: bool = False
     energies: tuple[Array, Array] | None = None
     form: Array | None = None
+    solve: bool = True
 
     def model(self) -> Any:
         """Names of the models that answered."""
@@ -62,9 +65,8 @@ class Facts(NamedTuple):
         """How far the velocity of the contact point would move with the other loss [m/s]."""
         if self.form is not None:
             return self.form
-        return self.whole(
-            model_forms(self.impacts, self.place, self.impacts.v1 + self.change), np.nan
-        )
+        velocity = self.impacts.v1 + self.change
+        return self.whole(model_forms(self.impacts, self.place, velocity, self.solve), np.nan)
 
     def caution(self) -> Any:
         """Codes of `Caution`."""

@@ -17,11 +17,14 @@ from planarimpact.common.losses import CODES, PLASTIC, VISCOUS
 TOLERANCE = 1e-2
 
 
-def model_forms(impacts: Impacts, place: Integers, velocity: Array) -> Array:
+def model_forms(
+    impacts: Impacts, place: Integers, velocity: Array, may_solve: bool = True
+) -> Array:
     """How far the velocity of `Answers` would move with the other loss [m/s], NaN if not known.
 
     There may be very many impacts that slide throughout, and of which metal would stick for a
-    while: their difference is NaN where the table of spheres has no answer.
+    while: their difference is NaN where the table of spheres has no answer. So is that of others
+    if the continuum may not be solved.
     """
     form = np.zeros(impacts.v1.size)
     lossy = (impacts.loss_code >= 0) & (place != methods.HEAD_ON)
@@ -34,7 +37,7 @@ def model_forms(impacts: Impacts, place: Integers, velocity: Array) -> Array:
     if rows.size:
         others = impacts.take(rows)
         code = CODES[VISCOUS] + CODES[PLASTIC] - others.loss_code
-        solve = place[rows] != methods.SLIDING
+        solve = may_solve & (place[rows] != methods.SLIDING)
         found = methods.answers(others._replace(loss_code=code), TOLERANCE, solve=solve)
         form[rows] = np.abs(found.velocity - velocity[rows])
         form[rows[[*found.refused, *found.unsolved]]] = np.nan

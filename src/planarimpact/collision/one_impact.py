@@ -1,8 +1,8 @@
 """One impact in Python's own floats, for event-driven codes: some tens of microseconds.
 
 The physics is that of `mechanics` and `methods`, in numbers in place of arrays; a test compares.
-They answer what is left to them here: a bad argument, no approach, no friction, velocities beyond
-the rule of sizes, and an impact that the table of spheres does not answer within the tolerance.
+They answer what is left to them here: a bad argument, velocities beyond the rule of sizes, and an
+impact that the table of spheres does not answer within the tolerance.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from planarimpact import bodies, models, spheres
 from planarimpact.bodies import Body
 from planarimpact.collision.facts import Facts
 from planarimpact.collision.mechanics import Impacts, cross, dot
-from planarimpact.collision.methods import ASKED, METHODS, SLIDING, table_error
+from planarimpact.collision.methods import ASKED, HEAD_ON, METHODS, SLIDING, table_error
 from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks, losses
 from planarimpact.common.arrays import Integers
@@ -32,7 +32,8 @@ from planarimpact.spheres import table
 # The table has the incidence from which plastic impacts slide throughout with an error below 1 %.
 # Within it the functions of arrays know better.
 UNSURE = 0.01
-PLASTIC, NONE = losses.CODES[losses.PLASTIC], np.array(-1, np.int8)
+PLASTIC = losses.CODES[losses.PLASTIC]
+NONE: Integers = np.array(-1, np.int8)
 # Places of the table of spheres by the code of the loss.
 TABLED = [
     next(i for i, method in enumerate(METHODS) if method.way == "table" and method.loss is loss)
@@ -42,7 +43,9 @@ TABLED = [
 RIGID = models.MODELS["rigid"]
 LUMPED = [models.MODELS[f"lumped.{name}"] for name in ("hysteretic", "unloading-stiffness")]
 BY_MODEL = [RIGID, *LUMPED]
-CODES = {name: np.array(code, np.int8) for code, name in enumerate(losses.BY_NAME)}
+CODES: dict[str, Integers] = {
+    name: np.array(code, np.int8) for code, name in enumerate(losses.BY_NAME)
+}
 
 
 def facts(
@@ -57,6 +60,7 @@ def facts(
     loss_code: Integers,
     change: float,
     regime: Regime,
+    solve: bool,
 ) -> Facts:
     """Facts of one impact; the other loss is answered like this one."""
     numbers = np.array([[v1], [v2], [restitution], [m2], [mass_ratio]])
@@ -64,17 +68,23 @@ def facts(
     given = [*numbers[:2], mu, numbers[2], loss_code[None], *numbers[3:], zeta2, dundurs]
     impacts = Impacts._make([None] * 6 + given)
     form = None
-    if restitution < 1 and not asked:
+    if restitution < 1 and place not in (ASKED, SLIDING, HEAD_ON):
         groups = mass_ratio, float(pair.stiffness_ratio), restitution
         other = _answer(v1, float(pair.friction) * v2, *groups, loss_code != PLASTIC, inf)
         form = np.array(abs(other[0] - change)) if other else None
     answer = np.array([place]), np.array([change]), np.array([regime])
-    return Facts(_only, impacts, *answer, asked, form=form)
+    whole = _none if regime == Regime.NO_IMPACT else _only
+    return Facts(whole, impacts, *answer, asked, form=form, solve=solve)
 
 
 def _only(values: Any, _: Any) -> Any:
     """The only one of several values, in the last axis."""
     return values[..., 0]
+
+
+def _none(values: Any, before: Any) -> Any:
+    """The value where bodies do not approach."""
+    return np.full(values.shape[:-1], before)[()]
 
 
 def collide(
@@ -84,6 +94,7 @@ def collide(
     vectors: list[list[float]],
     tolerance: float,
     model: Model | None = None,
+    solve: bool = True,
 ) -> list[Any]:
     """Fields of the Collision of one impact, or [] where the functions of arrays must see it.
 
@@ -108,10 +119,19 @@ def collide(
     tangential = _sum(relative, v2, normal)
     v1 = sqrt(dot(tangential, tangential))
     mu, zeta2, modulus, e, relaxation_time, yield_pressure = pair.floats
-    if not (LEAST <= v2 <= LARGEST and LEAST <= v1 <= LARGEST and mu):
+    meets = LEAST <= v2 <= LARGEST
+    if not (meets or -LARGEST <= v2 <= 0) or not (LEAST <= v1 <= LARGEST or v1 == 0):
         return []
     m2 = 1 / (inverse + other_inverse)
     beta = m2 * (mobility + other_mobility)
+    if not beta <= LARGEST_RATIO:
+        return []
+    known: tuple[Any, ...]
+    if not meets:
+        known = pair, (), HEAD_ON, v1, v2, m2, beta, 1.0, NONE, 0.0, Regime.NO_IMPACT, solve
+        after = velocity, spin, other_velocity, other_spin, [0.0] * 3
+        nothing = np.full(3, nan)
+        return [*np.array(after), *nothing, Regime.NO_IMPACT, NONE, partial(facts, *known)]
     code = int(pair.loss_code)
     plastic = code == PLASTIC
     if e != e:
@@ -124,21 +144,25 @@ def collide(
         else:
             e = _viscous_restitution(*quantities, v2, relaxation_time)
     unit = mu * v2
-    loss_code = pair.loss_code if e < 1 else NONE
-    asked = (model.name,) if model else ()
-    if model:
-        answer = _by_model(model, v1, unit, beta, zeta2, e)
-        loss_code = CODES.get(model.loss, loss_code) if e < 1 else NONE
-    elif code > PLASTIC:  # the continuum has no such loss
+    if code > PLASTIC and not model:  # the continuum has no such loss
         return []
+    loss_code, asked = NONE, (model.name,) if model else ()
+    if e < 1:
+        loss_code = CODES.get(model.loss, pair.loss_code) if model else pair.loss_code
+    if not (v1 and mu):
+        regime = Regime.SLIP_THROUGHOUT if v1 else Regime.STICK
+        answer = (0.0, 0.0, regime) if 0 <= e <= 1 else None
+        place = SLIDING if v1 else HEAD_ON
+    elif model:
+        answer, place = _by_model(model, v1, unit, beta, zeta2, e), ASKED
     else:
         answer = _answer(v1, unit, beta, zeta2, e, plastic and e < 1, tolerance)
+        place = TABLED[int(loss_code)] if answer and answer[1] else SLIDING
     if not answer:
         return []
     change, error, regime = answer
-    place = ASKED if model else TABLED[int(loss_code)] if error else SLIDING
     push = [(1 + e) * v2 * m2 * component for component in normal]
-    impulse = _sum(push, change / beta / v1 * m2, tangential)
+    impulse = _sum(push, change / beta / v1 * m2 if change else 0.0, tangential)
     moment = cross(normal, impulse)
     after = (
         _sum(velocity, inverse, impulse),
@@ -147,8 +171,9 @@ def collide(
         _sum(other_spin, -other_turn, moment),
         impulse,
     )
-    known = pair, asked, place, v1, v2, m2, beta, e, loss_code, change, regime
-    numbers = np.array((v1 / unit, e, error * unit))
+    known = pair, asked, place, v1, v2, m2, beta, e, loss_code, change, regime, solve
+    incidence = v1 / unit if unit else inf if v1 else 0.0
+    numbers = np.array((incidence, e, error * unit))
     return [*np.array(after), *numbers, regime, loss_code, partial(facts, *known)]
 
 
@@ -235,9 +260,12 @@ def floats(vector: Any) -> list[float]:
     """The components of a vector that is plainly three numbers; [] of anything else."""
     if type(vector) is np.ndarray:
         return vector.tolist() if vector.dtype == float and vector.shape == (3,) else []
-    plain = type(vector) in (list, tuple) and len(vector) == 3
-    plain = plain and {float, int}.issuperset(map(type, vector))
-    return [*vector] if plain and max(map(abs, vector)) <= LARGEST else []
+    if not (type(vector) in (list, tuple) and len(vector) == 3):
+        return []
+    kinds = {*map(type, vector)}
+    if np.float64 in kinds:  # whose own arithmetic is slow
+        vector, kinds = [*map(float, vector)], kinds - {np.float64}
+    return [*vector] if kinds <= {float, int} and max(map(abs, vector)) <= LARGEST else []
 
 
 def _sum(a: Sequence[float], factor: float, b: Sequence[float]) -> list[float]:
