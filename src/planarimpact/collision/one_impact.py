@@ -32,6 +32,7 @@ from planarimpact.spheres import table
 # The table has the incidence from which plastic impacts slide throughout with an error below 1 %.
 # Within it the functions of arrays know better.
 UNSURE = 0.01
+PLAIN = frozenset((float, int))  # types of plain numbers
 PLASTIC = losses.CODES[losses.PLASTIC]
 NONE: Integers = np.array(-1, np.int8)
 # Places of the table of spheres by the code of the loss.
@@ -157,7 +158,7 @@ def collide(
         answer, place = _by_model(model, v1, unit, beta, zeta2, e), ASKED
     else:
         answer = _answer(v1, unit, beta, zeta2, e, plastic and e < 1, tolerance)
-        place = TABLED[int(loss_code)] if answer and answer[1] else SLIDING
+        place = TABLED[code if e < 1 else -1] if answer and answer[1] else SLIDING
     if not answer:
         return []
     change, error, regime = answer
@@ -262,10 +263,11 @@ def floats(vector: Any) -> list[float]:
         return vector.tolist() if vector.dtype == float and vector.shape == (3,) else []
     if not (type(vector) in (list, tuple) and len(vector) == 3):
         return []
-    kinds = {*map(type, vector)}
-    if np.float64 in kinds:  # whose own arithmetic is slow
-        vector, kinds = [*map(float, vector)], kinds - {np.float64}
-    return [*vector] if kinds <= {float, int} and max(map(abs, vector)) <= LARGEST else []
+    if not PLAIN.issuperset(map(type, vector)):
+        if not {*PLAIN, np.float64}.issuperset(map(type, vector)):
+            return []
+        vector = [*map(float, vector)]  # NumPy's own arithmetic of one number is slow
+    return [*vector] if max(map(abs, vector)) <= LARGEST else []
 
 
 def _sum(a: Sequence[float], factor: float, b: Sequence[float]) -> list[float]:
