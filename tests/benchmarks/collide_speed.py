@@ -37,9 +37,9 @@ def timed(words, function, count=1, unit="s"):
     print(f"{words:<40} {cpu:6.2f} ({clock:.2f}) {unit}", flush=True)
 
 
-def repeated(pair, body):
+def repeated(pair, body, model=None):
     for _ in range(SINGLES):
-        collide(pair, UP, body, VELOCITY, SPIN)
+        collide(pair, UP, body, VELOCITY, SPIN, model=model)
 
 
 def million(seed=1):
@@ -71,6 +71,9 @@ if __name__ == "__main__":
     ball = bodies.solid_sphere(0.01, density=2000.0)
     for words, pair in SINGLE.items():
         timed(f"one impact, {words}", lambda pair=pair: repeated(pair, ball), SINGLES, "us")
+    viscous = SINGLE["viscous, e = 0.9"]
+    for name in ("lumped.hysteretic", "rigid"):
+        timed(f"one impact, {name}", lambda name=name: repeated(viscous, ball, name), SINGLES, "us")
     pairs, arguments = million()
     for words, table in pairs.items():
         timed(f"a million, {words}", lambda table=table: collide(table, *arguments))
