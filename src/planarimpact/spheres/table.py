@@ -33,7 +33,7 @@ ROOTS = {
     "plastic_high": (EVEN, LEFT, RIGHT, RIGHT),
 }
 # By loss the bounds of b, and the least e: wider than those that `spheres` admits.
-SPANS = {"viscous": (1.01, 4.1, 0.095), "plastic": (1.55, 3.55, 0.295)}
+SPANS = {"viscous": (1.01, 4.1, 0.095), "plastic": (1.05, 3.55, 0.295)}
 # Slip throughout begins at this share of its threshold, because of rounding.
 NEARLY = 1 - 2.0**-50
 # B-splines that are not zero within an interval.
@@ -246,15 +246,16 @@ def of_one(table: Table, y: float, b: float, e: float, plastic: bool) -> tuple[s
     numbers. A block of coefficients is multiplied by its weights, axis by axis.
     """
     name, low, high, u = "viscous", 0.0, 0.0, over_b("plastic" if plastic else "viscous", b)
-    column, part = _place(u, table.limits.shape[1] - 1)
-    over_u = 1 - part, part
     if plastic:
-        low, high = (table.limits[:, column : column + 2] @ over_u).tolist()
+        column, part = _place(u, table.limits.shape[1] - 1)
+        low, high = (table.limits[:, column : column + 2] @ (1 - part, part)).tolist()
         name = f"plastic_{'low' if e < low else 'middle' if e < high else 'high'}"
     panel, t = table.panels[name], float(over_e(name, e, (low, high)))
     row, part = _place(t, panel.edges.shape[1] - 1)
+    column, across = _place(u, panel.edges.shape[2] - 1)
     corners = panel.edges[:, row : row + 2, column : column + 2]
-    edges = edges_of(name, ((1 - part, part) @ corners @ over_u).tolist(), b, e)
+    varying = (1 - part, part) @ corners @ (1 - across, across)
+    edges = edges_of(name, varying.tolist(), b, e)
     slides_from = float(edges[-1]) * NEARLY
     if y >= slides_from:
         return name, slides_from, 0.0
