@@ -46,6 +46,10 @@ FOUND = {
         # Of the upper panel, which was not wrong:
         (1.2, 3.5, 1.2, 0.88),
         (4.0, 5.2, 1.5, 0.95),
+        # At the least mass over stiffness ratio, nor were these:
+        (4.4728488, 1.77968365, 1.6, 0.55210956),
+        (1.0, 1.76, 1.6, 0.8787),
+        (1.9383202, 1.77982391, 1.6, 0.95106185),
     ],
 }
 

@@ -63,9 +63,11 @@ def covers(
     Examples
     --------
     >>> covers(3.5, [0.9, 1.21, 3.1], 0.8).tolist()
-    [False, True, False]
-    >>> covers(3.5, [0.9, 1.21, 3.1], 0.2, loss="viscous").tolist()
     [False, True, True]
+    >>> covers(3.5, 1.21, [0.2, 0.3]).tolist()
+    [False, True]
+    >>> covers(3.5, 1.21, [0.2, 0.3], loss="viscous").tolist()
+    [True, True]
     """
     plastic = np.array(loss is None or checks.loss(loss, SPHERES) == PLASTIC.name)
     return _covers(mass_ratio, stiffness_ratio, restitution, plastic)

@@ -246,16 +246,17 @@ def of_one(table: Table, y: float, b: float, e: float, plastic: bool) -> tuple[s
     numbers. A block of coefficients is multiplied by its weights, axis by axis.
     """
     name, low, high, u = "viscous", 0.0, 0.0, over_b("plastic" if plastic else "viscous", b)
+    # Plastic limits have the intervals of the edges.
+    count = table.panels["plastic_low" if plastic else "viscous"].edges.shape[2] - 1
+    column, part = _place(u, count)
+    over_u = 1 - part, part
     if plastic:
-        column, part = _place(u, table.limits.shape[1] - 1)
-        low, high = (table.limits[:, column : column + 2] @ (1 - part, part)).tolist()
+        low, high = (table.limits[:, column : column + 2] @ over_u).tolist()
         name = f"plastic_{'low' if e < low else 'middle' if e < high else 'high'}"
     panel, t = table.panels[name], float(over_e(name, e, (low, high)))
     row, part = _place(t, panel.edges.shape[1] - 1)
-    column, across = _place(u, panel.edges.shape[2] - 1)
     corners = panel.edges[:, row : row + 2, column : column + 2]
-    varying = (1 - part, part) @ corners @ (1 - across, across)
-    edges = edges_of(name, varying.tolist(), b, e)
+    edges = edges_of(name, ((1 - part, part) @ corners @ over_u).tolist(), b, e)
     slides_from = float(edges[-1]) * NEARLY
     if y >= slides_from:
         return name, slides_from, 0.0
