@@ -46,6 +46,10 @@ FOUND = {
         # Of the upper panel, which was not wrong:
         (1.2, 3.5, 1.2, 0.88),
         (4.0, 5.2, 1.5, 0.95),
+        # At the least mass over stiffness ratio, nor were these:
+        (4.4728488, 1.77968365, 1.6, 0.55210956),
+        (1.0, 1.76, 1.6, 0.8787),
+        (1.9383202, 1.77982391, 1.6, 0.95106185),
     ],
 }
 
@@ -106,7 +110,7 @@ def impacts(name, number, at):
 
 def admitted(loss, b, e):
     """The nearest b and e of the table's range."""
-    b = np.clip(b, spheres.LEAST_RATIO[loss], spheres.LARGEST_RATIO[loss])
+    b = np.clip(b, spheres.LEAST_RATIO, spheres.LARGEST_RATIO)
     return b, np.clip(e, spheres.LEAST_RESTITUTION[loss], 1.0)
 
 
@@ -208,7 +212,7 @@ def test_the_velocity_jumps_no_more_than_is_stated(loss, stated):
     # The largest jumps are next to the lower bounds of restitution and mass over stiffness ratio.
     share, u = random.random(count) ** 2, random.random(count) ** 2
     least, most, low = spheres.LEAST_RATIO, spheres.LARGEST_RATIO, spheres.LEAST_RESTITUTION[loss]
-    b = least[loss] + u * (most[loss] - least[loss])
+    b = least + u * (most - least)
     e, zeta2 = low + share * (1 - low), np.full(count, spheres.STATED_STIFFNESS)
     sides = np.array([[1 - 1e-13], [1 + 1e-13]])
     limit = b + e * (b - 1)
@@ -248,9 +252,9 @@ def test_a_table_is_read_as_it_was_written():
 def test_the_job_makes_the_shipped_table(name, number):
     """One patch of the coarse one, which takes the least time."""
     plan, shipped = spheres_tables.PLANS["coarse"], table.shipped("coarse")
-    u = np.linspace(0, 1, plan.edges[1] + 1)[::16]
+    u = np.linspace(0, 1, plan.edges["plastic"][1] + 1)[::8]
     np.testing.assert_allclose(
-        shipped.limits[:, ::16],
+        shipped.limits[:, ::8],
         spheres_thresholds.limits(spheres_tables.b_at("plastic", u)),
         atol=1e-7,
     )

@@ -209,7 +209,7 @@ def _answer(
     """
     x = v1 / unit
     b, y, loss = beta / zeta2, x / zeta2, "plastic" if yields else "viscous"
-    covered = spheres.LEAST_RATIO[loss] <= b <= spheres.LARGEST_RATIO[loss] and beta >= 1
+    covered = spheres.LEAST_RATIO <= b <= spheres.LARGEST_RATIO and beta >= 1
     covered = covered and x >= LEAST and zeta2 <= spheres.LARGEST_STIFFNESS
     if not (covered and spheres.LEAST_RESTITUTION[loss] <= e <= 1):
         return None

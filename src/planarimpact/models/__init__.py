@@ -302,8 +302,7 @@ MODELS = {
                 cost="table",
                 restitution=(spheres.LEAST_RESTITUTION[name], 1.0),
                 valid=f"continuum.{name} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, "
-                f"and m2/m1 over zeta^2 from {spheres.LEAST_RATIO[name]} to "
-                f"{spheres.LARGEST_RATIO[name]}",
+                f"and m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
                 source="solved by this package, planarimpact.continuum",
                 loss=name,
             )

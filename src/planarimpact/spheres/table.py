@@ -33,7 +33,7 @@ ROOTS = {
     "plastic_high": (EVEN, LEFT, RIGHT, RIGHT),
 }
 # By loss the bounds of b, and the least e: wider than those that `spheres` admits.
-SPANS = {"viscous": (1.01, 4.1, 0.095), "plastic": (1.55, 3.55, 0.295)}
+SPANS = {"viscous": (1.01, 4.1, 0.095), "plastic": (1.05, 3.55, 0.295)}
 # Slip throughout begins at this share of its threshold, because of rounding.
 NEARLY = 1 - 2.0**-50
 # B-splines that are not zero within an interval.
@@ -246,7 +246,9 @@ def of_one(table: Table, y: float, b: float, e: float, plastic: bool) -> tuple[s
     numbers. A block of coefficients is multiplied by its weights, axis by axis.
     """
     name, low, high, u = "viscous", 0.0, 0.0, over_b("plastic" if plastic else "viscous", b)
-    column, part = _place(u, table.limits.shape[1] - 1)
+    # Plastic limits have the intervals of the edges.
+    count = table.panels["plastic_low" if plastic else "viscous"].edges.shape[2] - 1
+    column, part = _place(u, count)
     over_u = 1 - part, part
     if plastic:
         low, high = (table.limits[:, column : column + 2] @ over_u).tolist()

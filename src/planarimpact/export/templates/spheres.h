@@ -258,10 +258,7 @@ static inline int spheres_covers(
     return fabs(x) <= SPHERES_INCIDENCE_MAX
         && mass_ratio >= 1 && mass_ratio <= SPHERES_MASS_RATIO_MOST
         && stiffness_ratio <= SPHERES_STIFFNESS_MOST
-        && ratio >= SPHERES_RATIO_LEAST
-            * (loss == SPHERES_VISCOUS ? SPHERES_RATIO_MIN_VISCOUS : SPHERES_RATIO_MIN_PLASTIC)
-        && ratio <= SPHERES_RATIO_MOST
-            * (loss == SPHERES_VISCOUS ? SPHERES_RATIO_MAX_VISCOUS : SPHERES_RATIO_MAX_PLASTIC)
+        && ratio >= SPHERES_RATIO_LEAST && ratio <= SPHERES_RATIO_MOST
         && restitution >= spheres_least_restitution(loss) && restitution <= 1
         && (loss == SPHERES_VISCOUS || loss == SPHERES_PLASTIC);
 }
@@ -571,13 +568,8 @@ static inline const char *spheres_before(
     impact->loss = pair.loss == SPHERES_PLASTIC || pair.yield_pressure > 0
         ? SPHERES_PLASTIC : SPHERES_VISCOUS;
     if (!spheres_covers(0, impact->beta, pair.stiffness_ratio, 1, impact->loss))
-        return impact->loss == SPHERES_VISCOUS
-            ? "mass_ratio/stiffness_ratio: allowed is a number from "
-                SPHERES_TEXT(SPHERES_RATIO_MIN_VISCOUS) " to "
-                SPHERES_TEXT(SPHERES_RATIO_MAX_VISCOUS) " with this loss"
-            : "mass_ratio/stiffness_ratio: allowed is a number from "
-                SPHERES_TEXT(SPHERES_RATIO_MIN_PLASTIC) " to "
-                SPHERES_TEXT(SPHERES_RATIO_MAX_PLASTIC) " with this loss";
+        return "mass_ratio/stiffness_ratio: allowed is a number from "
+            SPHERES_TEXT(SPHERES_RATIO_MIN) " to " SPHERES_TEXT(SPHERES_RATIO_MAX);
 
     if (is_fixed + (pair.relaxation_time != 0) + (pair.yield_pressure != 0) != 1)
         return "pair: allowed is either restitution with loss, or one of relaxation_time and "
@@ -764,8 +756,6 @@ static inline double spheres_model_form(
         return (double)NAN;
     if (!(impact.e < 1))
         return 0;
-    if (!spheres_covers(0, impact.beta, impact.zeta2, 1, SPHERES_PLASTIC))
-        return (double)NAN;
     viscous = spheres_change(&impact, SPHERES_VISCOUS, &one);
     plastic = spheres_change(&impact, SPHERES_PLASTIC, &two);
     if (one == SPHERES_UNRESOLVED || two == SPHERES_UNRESOLVED)

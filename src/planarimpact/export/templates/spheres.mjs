@@ -215,23 +215,16 @@ function sticking(spot, x, zeta2, sliding) {
     return clipped(zeta2 * share + 0, sliding > 0 - x ? sliding : 0 - x, x);
 }
 
-// The range of the table, by loss.
+// The least restitution of a loss in the table.
 function least_restitution(loss) {
     return loss === VISCOUS ? RESTITUTION_MIN_VISCOUS : RESTITUTION_MIN_PLASTIC;
-}
-function least_ratio(loss) {
-    return loss === VISCOUS ? RATIO_MIN_VISCOUS : RATIO_MIN_PLASTIC;
-}
-function largest_ratio(loss) {
-    return loss === VISCOUS ? RATIO_MAX_VISCOUS : RATIO_MAX_PLASTIC;
 }
 
 // Whether the table has an answer.
 export function covers(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const ratio = mass_ratio / stiffness_ratio;
     return Math.abs(x) <= INCIDENCE_MAX && mass_ratio >= 1 && mass_ratio <= MASS_RATIO_MOST
-        && stiffness_ratio <= STIFFNESS_MOST && ratio >= least_ratio(loss) * RATIO_LEAST
-        && ratio <= largest_ratio(loss) * RATIO_MOST
+        && stiffness_ratio <= STIFFNESS_MOST && ratio >= RATIO_LEAST && ratio <= RATIO_MOST
         && restitution >= least_restitution(loss) && restitution <= 1
         && (loss === VISCOUS || loss === PLASTIC);
 }
@@ -462,9 +455,8 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
     const other_share = other_inverse / (inverse + other_inverse);
     const arm = body.radius / body.gyration, other_arm = other.radius / other.gyration;
     const beta = (1 + arm * arm) * share + (1 + other_arm * other_arm) * other_share;
-    const own = pair.loss === PLASTIC || pair.yield_pressure > 0 ? PLASTIC : VISCOUS;
-    if (!covers(0, beta, zeta2, 1, own)) {
-        const allowed = `a number from ${least_ratio(own)} to ${largest_ratio(own)} with this loss`;
+    if (!covers(0, beta, zeta2, 1, VISCOUS)) {
+        const allowed = `a number from ${RATIO_MIN} to ${RATIO_MAX}`;
         throw refusal("mass_ratio/stiffness_ratio", beta / zeta2, allowed);
     }
     check_laws(pair);
@@ -586,7 +578,6 @@ export function model_form(...contact) {
     const impact = before(...contact);
     if (!impact) return NaN;
     if (impact.e === 1) return 0;
-    if (!covers(0, impact.beta, impact.zeta2, 1, PLASTIC)) return NaN;
     const viscous = change(impact, VISCOUS), plastic = change(impact, PLASTIC);
     if (viscous.regime === UNRESOLVED || plastic.regime === UNRESOLVED) return NaN;
     return impact.unit * Math.abs(viscous.added - plastic.added);
