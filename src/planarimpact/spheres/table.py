@@ -267,7 +267,7 @@ def of_one(table: Table, y: float, b: float, e: float, plastic: bool) -> tuple[s
     s = sqrt(s) if root == LEFT else 1 - sqrt(1 - s) if root == RIGHT else s
     _, count_t, count_u = panel.velocity.shape
     i, part_s = _place(s, int(panel.intervals[patch]))
-    i += int(panel.intervals[:patch].sum()) + patch * (ORDER - 1)
+    i += sum(panel.intervals[:patch].tolist()) + patch * (ORDER - 1)
     j, part_t = _place(t, count_t - ORDER + 1)
     k, part_u = _place(u, count_u - ORDER + 1)
     block = panel.velocity[i : i + ORDER, j : j + ORDER, k : k + ORDER]
