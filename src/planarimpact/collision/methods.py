@@ -188,7 +188,7 @@ def lost_by(model: models.Model, loss_code: Integers) -> tuple[Integers, dict[in
         return loss_code, {}
     code = [*BY_NAME].index(model.loss)
     wrong = np.flatnonzero((loss_code >= 0) & (loss_code != code) & (model.loss in SPHERES))
-    said = "loss = '{}': the loss of {} is {}"
+    said = "loss = '{}': the loss of {} is {}; choose a model with the loss of the pair"
     messages = {i: said.format(NAMES[loss_code[i]], model.name, model.loss) for i in wrong.tolist()}
     return np.where(loss_code >= 0, np.int8(code), loss_code), messages
 

@@ -71,12 +71,12 @@ def impacts(
         along = np.where(np.any(along != 0, axis=0), along, direction)
     along = along * np.where(dot(along, relative) < 0, -1.0, 1.0) / np.sqrt(dot(along, along))
     across = np.stack(cross(along, normal))
+    approach = before.velocity - other_before.velocity  # both may drift together
     for name, vector, out, allowed in (
         ("offset", offset, normal, "along the surface; the radius is the part along the normal"),
         ("other_offset", other_offset, normal, "along the surface, as offset"),
         ("other_offset", other_offset, across, "in the plane of offset and normal"),
-        ("velocity", before.velocity, across, "in the plane of offset and normal"),
-        ("other_velocity", other_before.velocity, across, "in the plane of offset and normal"),
+        ("velocity - other_velocity", approach, across, "in the plane of offset and normal"),
         *(
             (name, spin, out, "across the plane of offset and normal")
             for name, spin in (("spin", before.spin), ("other_spin", other_before.spin))
