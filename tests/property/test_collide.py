@@ -411,5 +411,8 @@ def test_replaced_fields_are_those_of_a_new_pair(law):
                 one, other = (np.ravel(getattr(pair, name)) for pair in (found, wanted))
                 np.testing.assert_array_equal(one, other)
         np.testing.assert_array_equal(pair.friction, friction)
-    other = pair.replace(restitution=0.5, yield_pressure=None)
+    other = pair.replace(restitution=0.5, yield_pressure=None, loss="plastic")
     assert (other.restitution == 0.5).all() and np.isnan(other.yield_pressure).all()
+    if "yield_pressure" in law:  # whose loss goes with it
+        polymer = pair.replace(yield_pressure=None, relaxation_time=1e-7)
+        assert (polymer.loss == "viscous").all()

@@ -195,10 +195,10 @@ def test_nothing_is_solved_where_it_is_not_wanted():
     for velocity in ([0.5, 0, -1.0], [9.0, 0, -1], [0, 0, -1]):
         one = collide(pair[0], UP, BALL, velocity, still, solve=False)
         assert (one.velocity == collide(pair[0], UP, BALL, velocity, still).velocity).all()
-    said = r"impact \[1\]: solve = False: .* the table of spheres does not cover .*; choose a model"
+    said = r"impact \[1\]: solve = False: the table of spheres does not cover .*; choose a model"
     with pytest.raises(InputError, match=said):
         collide(pair, UP, BALL, [0.5, 0, -1.0], still, solve=False)
-    with pytest.raises(InputError, match="solve = False: .* its error is above the tolerance"):
+    with pytest.raises(InputError, match="solve = False: .* its error is above the tol"):
         collide(pair[0], UP, BALL, [0.5, 0, -1.0], still, solve=False, tolerance=1e-6)
     with pytest.raises(InputError, match="solve = False: model = 'continuum.plastic' is solved"):
         collide(pair[0], UP, BALL, [0.5, 0, -1], still, solve=False, model="continuum.plastic")
@@ -223,6 +223,13 @@ def test_next_to_slip_throughout_metal_needs_no_more_modules():
         "assert 'scipy' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("solve", [None, "no", 1])
+def test_whether_to_solve_is_yes_or_no(solve):
+    pair = Pair(STEEL, friction=0.3, restitution=1.0)
+    with pytest.raises(InputError, match="solve = .*: allowed are True and False"):
+        collide(pair, UP, BALL, [0.5, 0, -1.0], [0, 0, 0], solve=solve)
 
 
 RUBBER = bodies.Material(5e6, 0.5)
@@ -331,6 +338,25 @@ def test_off_the_centre_nothing_is_lost_but_what_is_said(model):
     assert (drag <= mu * push + 1e-11).all() and (push >= 0).all()
     assert set(after.model[met]) == {model or "lumped.hysteretic"}
     assert (after.velocity[~met] == velocity[~met]).all()
+
+
+def test_rounding_makes_no_plane():
+    """Offsets are contact points less centres, and half of them are 0 but for rounding."""
+    rng, count = np.random.default_rng(7), 500
+    normal, along = (np.cross(rng.normal(size=(count, 3)), rng.normal(size=3)) for _ in range(2))
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    along = np.cross(normal, along)
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    far = np.where(np.arange(count) % 2, 0.1, 0.0)[:, None]
+    centre = 5 * rng.normal(size=(count, 3))
+    way = centre - 0.3 * normal + far * along - centre
+    offset = way - dot(way, normal)[:, None] * normal
+    body = bodies.Body(1.0, 0.2, 0.3)
+    pair = Pair(stiffness_ratio=1.2, friction=0.4, restitution=0.6, loss="hysteretic")
+    state = 0.5 * along - normal, 2.0 * np.cross(along, normal)
+    found, wanted = (collide(pair, normal, body, *state, offset=o) for o in (offset, far * along))
+    np.testing.assert_allclose(found.velocity, wanted.velocity, atol=1e-12)
+    assert collide(pair, UP, body, [0.5, 0, -1], [1e-17, 0, 0], offset=[1e-18, 1e-19, 0])
 
 
 def test_both_bodies_may_drift_together():

@@ -175,7 +175,8 @@ def collide(
         Before the impact [rad/s], right-handed.
     tolerance : float
         Largest error of the velocity of the contact point, in mu v2(0), against the continuum;
-        1e-10 to 1. In v1(0) it is at most the default. The default is that of the table of spheres:
+        1e-10 to 1. In v1(0) it is at most the default. Of models that are asked for only those
+        beginning with "continuum" have it. The default is that of the table of spheres:
         about a microsecond an impact in an array, some tens of them for one alone, and tens of
         milliseconds for the first one, as the table is read.
         Impacts for which the table is too coarse, or which it does not cover (e below 0.1, with
@@ -239,6 +240,8 @@ def collide(
     if type(tolerance) is not float or not 1e-10 <= tolerance <= 1:  # the check takes its time
         tolerance = checks.number("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
     chosen = None if model is None else models.get(model)
+    if solve is not True and solve is not False:
+        raise InputError(f"solve = {checks.brief(solve)}: allowed are True and False")
     if offset is not None or other_offset is not None:
         zero = (0.0, 0.0, 0.0)
         offsets = zero if offset is None else offset, zero if other_offset is None else other_offset
@@ -339,7 +342,8 @@ def _refuse_models(model: Model | None, solve: bool, has_offset: bool) -> None:
     if model and has_offset and model not in off_centre.CHOICES:
         names = ", ".join(choice.name for choice in off_centre.CHOICES)
         raise InputError(f"model = '{model.name}': with an offset allowed are {names}")
-    if model and not solve and model.name.startswith("continuum"):
+    solved = model and methods.has_micro_slip(model) and model.name.startswith("continuum")
+    if model and solved and not solve:
         raise InputError(f"solve = False: model = '{model.name}' is solved; allowed are others")
 
 

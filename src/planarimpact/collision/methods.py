@@ -128,7 +128,7 @@ def answers(
     place, error = of_each(impacts, tolerance)
     result = _by_formulas(impacts, place, error)
     needs = np.flatnonzero(IS_SOLVED[place] & ~np.asarray(solve)).tolist()
-    said = "solve = False: it needs the continuum, solved, as {}; choose a model, or solve = True"
+    said = "solve = False: {}, so that it must be solved; choose a model, or solve = True"
     result.refused.update({i: said.format(METHODS[place[i]].why) for i in needs})
     for number in np.unique(np.delete(place, needs)).tolist():
         if IS_CONTINUUM[number]:
@@ -158,8 +158,18 @@ def answers_of(model: models.Model, impacts: Impacts, tolerance: float) -> Answe
         own = {name: values[part] for name, values in settings.items()}
         return models.rebound(model, x[part], *(group[part] for group in groups), **own)
 
+    (least, most), e = model.restitution, groups[2]
+    beyond = np.flatnonzero((e < least) | (e > most))
+    if beyond.size and least < 1:  # before any work; those for e = 1 say what has a loss
+        allowed = f"allowed are numbers from {least:g} to {most:g}"
+        first, said = beyond[0], f"{model.name}: restitution = {e[beyond[0]]}: {allowed}"
+        result.refused[int(rows[first])] = said
+        return result
     try:
         found = rebound(slice(None))
+    except continuum.Unsolved as failed:
+        result.unsolved[int(rows[failed.impacts[0]])] = f"{model.name}: {failed}"
+        return result
     except (InputError, ConvergenceError) as failed:
         first, message = first_refused(rebound, rows.size, str(failed))
         problems = result.refused if isinstance(failed, InputError) else result.unsolved

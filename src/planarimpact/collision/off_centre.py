@@ -7,13 +7,12 @@ plane of offset and normal, so that all motion must be in that plane.
 
 from __future__ import annotations
 
-import warnings
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import noncollinear
+from planarimpact import bodies, noncollinear
 from planarimpact.bodies import Body
 from planarimpact.collision import mechanics, methods
 from planarimpact.collision.mechanics import Impacts, State, cross, dot
@@ -61,32 +60,50 @@ def impacts(
     The plane is that of the first of the two offsets that is not 0, else that of the motion.
     """
     normal = mechanics.unit_normal(normal)
+    bodies.effective_masses(body, other)  # refuses two walls
     arm, other_arm = offset - body.radius * normal, other_offset + other.radius * normal
     relative = before.velocity + np.stack(cross(before.spin, arm))
     relative = relative - other_before.velocity - np.stack(cross(other_before.spin, other_arm))
     along = np.zeros_like(normal)
     anywhere = np.eye(3)[:, np.argmin(np.abs(normal), axis=0)]
-    for vector in (offset, other_offset, relative, anywhere):
+    # Lengths and speeds that count, so that rounding of what is 0 does not make a plane.
+    length = np.max([_size(arm), _size(other_arm)], axis=0)
+    speed = np.sum([_size(vector) for vector in (*before[:1], *other_before[:1])], axis=0)
+    speed = speed + length * (_size(before.spin) + _size(other_before.spin))
+    for vector, least in (
+        (offset, OUT * length),
+        (other_offset, OUT * length),
+        (relative, OUT * speed),
+        (anywhere, 0.0),
+    ):
         direction = vector - dot(vector, normal) * normal
-        along = np.where(np.any(along != 0, axis=0), along, direction)
-    along = along * np.where(dot(along, relative) < 0, -1.0, 1.0) / np.sqrt(dot(along, along))
+        counts = ~np.any(along != 0, axis=0) & (_size(direction) > least)
+        along = np.where(counts, direction / np.where(counts, _size(direction), 1.0), along)
+    along = along * np.where(dot(along, relative) < 0, -1.0, 1.0)
     across = np.stack(cross(along, normal))
     approach = before.velocity - other_before.velocity  # both may drift together
-    for name, vector, out, allowed in (
-        ("offset", offset, normal, "along the surface; the radius is the part along the normal"),
-        ("other_offset", other_offset, normal, "along the surface, as offset"),
-        ("other_offset", other_offset, across, "in the plane of offset and normal"),
-        ("velocity - other_velocity", approach, across, "in the plane of offset and normal"),
-        *(
-            (name, spin, out, "across the plane of offset and normal")
-            for name, spin in (("spin", before.spin), ("other_spin", other_before.spin))
-            for out in (along, normal)
-        ),
+    v1, v2 = dot(relative, along), -dot(relative, normal)
+    checks.in_range("tangential velocity of contact", v1, 0.0)
+    checks.in_range("normal velocity of approach", np.where(v2 > 0, v2, 1.0))
+    surface = "along the surface; the radius is the part along the normal"
+    plane, axis = (f"{where} the plane of offset and normal" for where in ("in", "across"))
+    spin, other_spin = length * before.spin, length * other_before.spin
+    for name, vector, out, scale, allowed in (
+        ("offset", offset, normal, length, surface),
+        ("other_offset", other_offset, normal, length, surface),
+        ("other_offset", other_offset, across, length, plane),
+        ("velocity - other_velocity", approach, across, speed, plane),
+        ("spin", spin, along, speed, axis),
+        ("spin", spin, normal, speed, axis),
+        ("other_spin", other_spin, along, speed, axis),
+        ("other_spin", other_spin, normal, speed, axis),
     ):
-        wrong = np.flatnonzero(~(np.abs(dot(vector, out)) <= OUT * np.sqrt(dot(vector, vector))))
+        # Bodies that do not approach are left as they are.
+        wrong = np.flatnonzero((v2 > 0) & ~(np.abs(dot(vector, out)) <= OUT * scale))
         if wrong.size:
+            given = vector / length if "spin" in name else vector
             said = f"{name} = {{}}: allowed is a vector {allowed}"
-            raise OutOfRange({i: said.format(vector[:, i].tolist()) for i in wrong.tolist()})
+            raise OutOfRange({i: said.format(given[:, i].tolist()) for i in wrong.tolist()})
     inverse_mass = [np.zeros_like(body.radius)] * 3
     for one, lever, depth in ((body, offset, body.radius), (other, other_offset, -other.radius)):
         far, deep = dot(lever, along) / one.gyration, depth / one.gyration
@@ -95,13 +112,18 @@ def impacts(
             sum_ + part / one.mass for sum_, part in zip(inverse_mass, own, strict=True)
         ]
     mass = InverseMass(*inverse_mass)
-    v1, v2, m2 = dot(relative, along), -dot(relative, normal), 1 / np.asarray(mass.normal)
+    m2 = 1 / np.asarray(mass.normal)
     restitution = mechanics.restitution(pair, body, other, m2, v2)
     loss_code = np.where(restitution == 1, np.int8(-1), pair.loss_code)
     numbers = v1, v2, pair.friction, restitution, loss_code, m2, m2 * mass.tangential
     materials = pair.stiffness_ratio, pair.dundurs
     given = body, other, normal, before, other_before, along
     return Impacts._make([*given, *numbers, *materials]), Plane(along, arm, other_arm, mass)
+
+
+def _size(vector: Array) -> Array:
+    """Lengths of vectors, shape (3, n)."""
+    return np.sqrt(dot(vector, vector))
 
 
 def answers(
@@ -163,10 +185,7 @@ def _rebound(
     mu, zeta2 = impacts.friction[rows], impacts.stiffness_ratio[rows]
     if model is MODELS["rigid"]:
         return noncollinear.rigid.rebound(v1, v2, inverse_mass, mu, e)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)
-        loss: Any = model.loss  # one of NONCOLLINEAR
-        return noncollinear.rebound(v1, v2, inverse_mass, mu, e, zeta2, loss=loss)
+    return noncollinear.quiet_rebound(v1, v2, inverse_mass, mu, e, zeta2, model.loss)
 
 
 def after(impacts: Impacts, plane: Plane, impulses: Array) -> tuple[State, State, Array]:

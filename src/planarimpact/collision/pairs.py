@@ -140,6 +140,10 @@ class Pair:
         fields = {name: getattr(self, name) for name in _ARRAYS}
         if "stiffness_ratio" in changes:  # of materials that are not known
             fields["dundurs"] = _NAN
+        if not changes.keys().isdisjoint(RESTITUTION_FROM) and "loss" not in changes:
+            # The loss of a law goes with it.
+            by_law = np.isnan(self.restitution)
+            fields["loss_code"] = np.where(by_law, np.int8(-1), self.loss_code)
         return _made(*_together(fields | _checked(**changes)))
 
     def __setattr__(self, name: str, value: Any) -> None:

@@ -67,7 +67,8 @@ def _listed(numbers: Array, but: float) -> str:
 
 _TEXTS = {
     Caution.RESTITUTION: "restitution is below what the loss is known to hold from "
-    f"({_listed(_FROM, 0)}): solid spheres are off by up to 0.9 mu v2(0)",
+    f"({_listed(_FROM, 0)}): plastic spheres are off by up to 0.2 mu v2(0) at 0.39, and the others "
+    "by up to 0.9 from a continuum at 0.8",
     Caution.FRICTION: "friction is above what the loss is known to hold for "
     f"({_listed(_TO_FRICTION, np.inf)}): there it exceeds the shear strength of the surface, and "
     "solid spheres are off by up to 0.9 mu v2(0)",

@@ -145,7 +145,7 @@ def _error(off: Array, x: Array) -> Error:
 
 def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: SpheresLoss | None) -> Array:
     """Velocity of the continuum, from the table of spheres where that has it."""
-    if spheres.covers(beta, zeta2, e):
+    if spheres.covers(beta, zeta2, e, loss=loss):
         return spheres.rebound(x, beta, zeta2, e, loss=loss).velocity
     return continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=TOLERANCE).velocity
 

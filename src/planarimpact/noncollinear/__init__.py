@@ -192,6 +192,31 @@ def rebound(
     arguments = _checked(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
+    result, given_up = _rebound(arguments)
+    if given_up:
+        if not arguments[0].ndim:
+            raise ConvergenceError(given_up)
+        # As NumPy does where a function of an array has no value for an entry.
+        warnings.warn(given_up, RuntimeWarning, stacklevel=3)
+    return result
+
+
+def quiet_rebound(
+    tangential: Array,
+    normal: Array,
+    inverse_mass: InverseMass,
+    friction: Array,
+    restitution: Array,
+    stiffness_ratio: Array,
+    loss: str,
+) -> NoncollinearRebound:
+    """As `rebound`, without a warning: NaN says what the solver gives up."""
+    groups = tangential, normal, inverse_mass, friction, restitution, stiffness_ratio
+    return _rebound(_checked(*groups, 1.0, loss))[0]
+
+
+def _rebound(arguments: tuple[Array, ...]) -> tuple[NoncollinearRebound, str]:
+    """State at separation of checked arguments, and what is said of those that are given up."""
     v2, m2, kappa, groups = _groups(arguments)
     contacts = OffCentre(*groups)
     unsolved = solve(contacts)
@@ -210,17 +235,14 @@ def rebound(
     regime, jams = contacts.order.regimes().astype(np.uint8), contacts.jams
     shape = arguments[0].shape
     if unsolved.size:
-        if not shape:
-            raise ConvergenceError(_given_up(groups, unsolved))
-        # As NumPy does where a function of an array has no value for an entry.
-        warnings.warn(_given_up(groups, unsolved), RuntimeWarning, stacklevel=3)
         for field in fields:
             field[unsolved] = np.nan
         regime[unsolved], jams[unsolved] = Regime.UNRESOLVED, False
     columns: list[Any] = [column.reshape(shape)[()] for column in (*fields, regime, jams)]
     if not shape:
         columns[-2:] = Regime(int(regime[0])), bool(jams[0])
-    return NoncollinearRebound._make(columns)
+    said = _given_up(groups, unsolved) if unsolved.size else ""
+    return NoncollinearRebound._make(columns), said
 
 
 @checks.default_errors

@@ -77,10 +77,12 @@ def _covers(
     mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: ArrayLike, plastic: Booleans
 ) -> Booleans:
     """As `covers`, by whether the loss is plastic."""
-    beta = checks.real("mass_ratio", mass_ratio)
-    zeta2 = checks.real("stiffness_ratio", stiffness_ratio)
-    e = checks.real("restitution", restitution)
-    with np.errstate(over="ignore"):  # of a stiffness ratio near 0
+    beta, zeta2, e = checks.broadcast(
+        mass_ratio=checks.real("mass_ratio", mass_ratio),
+        stiffness_ratio=checks.real("stiffness_ratio", stiffness_ratio),
+        restitution=checks.real("restitution", restitution),
+    )
+    with np.errstate(over="ignore", divide="ignore"):  # of a stiffness ratio near 0
         ratio = beta / zeta2
     least = np.where(plastic, LEAST_RESTITUTION["plastic"], LEAST_RESTITUTION["viscous"])
     low, high = LEAST_RATIO * (1 - ROUNDING), LARGEST_RATIO * (1 + ROUNDING)
