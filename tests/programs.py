@@ -10,6 +10,8 @@ PROGRAMS = {
     "spheres in C": ("cc", "gcc", "clang"),
     "spheres in C++": ("c++", "g++", "clang++"),
     "spheres in JavaScript": ("node",),
+    "types for TypeScript": ("tsc",),
+    "impacts in Yade": ("yade",),
     "the commit of a checkout": ("git",),
 }
 

@@ -23,13 +23,14 @@ SOLVER = {
     "lumped": "common phases",
     "continuum": "common normal_impact",
     "bodies": "common normal_impact",
-    "noncollinear": "common bodies phases",
+    "noncollinear": "common phases",
     "spheres": "common normal_impact continuum",
-    "models": "common normal_impact rigid lumped continuum spheres",
+    "models": "common normal_impact rigid lumped continuum spheres bodies pandas",
     "export": "planarimpact common normal_impact collision spheres",
     "fit": "common normal_impact bodies continuum spheres models",
-    "collision": "common normal_impact bodies continuum spheres",
+    "collision": "common normal_impact bodies lumped noncollinear continuum spheres models",
     "scene": "common bodies collision pandas",
+    "_pyinstaller": "",
     "__init__": (
         "planarimpact common normal_impact rigid lumped continuum bodies noncollinear spheres"
         " models export fit collision scene"
@@ -87,10 +88,12 @@ PUBLIC_MODULES = {
     "normal_impact.hertz",
     "normal_impact.kelvin_voigt",
     "normal_impact.yielding",
+    "lumped.one_impact",  # in floats, for `collide`
     "models.laws",
     "models.timestep",
     "noncollinear.rigid",
-    "collision.mechanics",  # these three solve scenes
+    "collision.facts",  # these four solve scenes
+    "collision.mechanics",
     "collision.model_form",
     "collision.methods",
     "collision.presets",
@@ -180,7 +183,7 @@ def test_packages_import_only_what_they_may(side, package):
         ("planarimpact", "continuum", "from planarimpact import lumped"),
         ("planarimpact", "lumped", "def late():\n    import planarimpact.rigid"),
         ("planarimpact", "models", "from planarimpact.continuum import tangential_motion"),
-        ("planarimpact", "models", "import pandas as pd"),
+        ("planarimpact", "collision", "import pandas as pd"),
         ("planarimpact", "rigid", "from stronge1994 import gate"),
         ("stronge1994", "figures/drawing", "from planarimpact.lumped import rebound"),
         ("stronge1994", "figures/drawing", "from stronge1994.figures.fig5 import curves"),

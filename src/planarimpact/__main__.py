@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NoReturn
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from planarimpact import (
     __version__,
@@ -20,7 +21,7 @@ from planarimpact import (
 )
 from planarimpact import scene as tables
 from planarimpact.common import checks
-from planarimpact.common.arrays import ArrayLike
+from planarimpact.common.cautions import Caution
 from planarimpact.common.results import Regime
 
 ABOUT = """
@@ -105,13 +106,16 @@ def _rebound(options: argparse.Namespace) -> None:
     model, settings = models.get(options.model), dict(options.setting)
     model.refuse_others(settings)
     result = models.rebound(model, x, **_groups(options), **settings)
-    fields = result._replace(regime=Regime.names(result.regime))._asdict()
+    fields = {**result._asdict(), "regime": Regime.names(result.regime)}
     columns = {
         f"{name} [{unit}]" if unit else name: fields[name]
         for name, unit in UNITS.items()
         if fields[name] is not None
     }
     loss = "none" if options.restitution == 1 else model.loss
+    caution = Caution.of(loss, options.friction or 0, options.restitution).text
+    if caution:
+        _tell(f"caution: {caution}")
     described = {"model": [model.name] * len(x), "loss": [loss] * len(x)}
     _print({"incidence [mu v2(0)]": x} | columns | described)
 
@@ -156,6 +160,16 @@ def _scene(options: argparse.Namespace) -> None:
 
 
 def _models(options: argparse.Namespace) -> None:
+    """List the models, or compare those that fit a pair of materials."""
+    given = {name: value for name, value in vars(options).items() if value is not None}
+    del given["command"]
+    if given:
+        if not {"material", "friction"} <= given.keys():
+            raise checks.InputError("--material, --friction: needed are both, or no option at all")
+        moduli = {k: bodies.Material(*v) for k, v in given.items() if isinstance(v, tuple)}
+        columns, notes = models.compare(**given | moduli)
+        _tell("\n".join(notes))
+        return _print({name: [*map(_short, cells)] for name, cells in columns.items()})
     rows = models.MODELS.values()
     _print(
         {
@@ -168,6 +182,13 @@ def _models(options: argparse.Namespace) -> None:
             "source": [model.source for model in rows],
         }
     )
+
+
+def _short(value: str | float) -> str:
+    """A cell with three digits, if it is a number."""
+    if isinstance(value, str):
+        return value
+    return np.format_float_positional(value, 3, fractional=False, trim="-")
 
 
 def _decimal(text: str) -> float:
@@ -190,6 +211,14 @@ def _setting(text: str) -> tuple[str, float]:
     if not equals:
         raise argparse.ArgumentTypeError(f"{text}: allowed is NAME=NUMBER, such as steps=256")
     return name, _number(value)
+
+
+def _material(text: str) -> str | tuple[float, ...]:
+    """Name of a material, or Young's modulus and Poisson's ratio."""
+    moduli = tuple(map(_decimal, text.split(","))) if "," in text else ()
+    if len(moduli) not in (0, 2) or NUMBER.fullmatch(text):
+        raise argparse.ArgumentTypeError(f"{text!a}: allowed are NAME, and E,NU such as 2e11,0.3")
+    return moduli or text
 
 
 class _Parser(argparse.ArgumentParser):
@@ -345,7 +374,22 @@ def _parser() -> argparse.ArgumentParser:
         help=f"largest error, {errors} [%(default)s]",
     )
 
-    command("models", _models, "list the models", "What each describes, and what it neglects.")
+    compared = command(
+        "models",
+        _models,
+        "list the models, or compare them for a pair of materials",
+        "Without options: what each describes, and what it neglects. With --material and "
+        "--friction: how far each is from the continuum, and how long it takes.",
+    )
+    named: dict[str, Any] = {"type": _material, "metavar": "NAME"}
+    names = f"{', '.join(models.materials())}, or E,NU: Young's modulus [Pa] and Poisson's ratio"
+    compared.add_argument("--material", **named, help=f"of the sphere: {names}")
+    compared.add_argument("--on", **named, help="of what it strikes, likewise [a rigid body]")
+    compared.add_argument("--friction", type=_decimal, help="mu, above 0")
+    degrees = "of incidence, from and to, degrees from the normal [0 80]"
+    compared.add_argument("--angle", type=_decimal, nargs=2, help=degrees)
+    compared.add_argument("--restitution", type=_decimal, help="e [as the softer material has it]")
+    compared.add_argument("--loss", choices=continuum.LOSSES, help="[as the softer material]")
     return parser
 
 

@@ -80,7 +80,7 @@ from planarimpact.common.checks import (
     not_negative,
     positive,
 )
-from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
+from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS, SpheresLoss
 from planarimpact.common.records import record
 from planarimpact.normal_impact import LEAST_RESTITUTION, kelvin_voigt, yielding
 
@@ -227,8 +227,11 @@ def fields(
     return {f"{name}.{field}": rule(f"{name}.{field}", v) for (field, rule), v in named}
 
 
-def _material_or_rigid(name: str, value: Material | None) -> dict[str, Array]:
-    return {} if value is None else fields(name, value, Material)
+def _or_none(rule: _Rule, name: str, value: Any) -> Array | dict[str, Array]:
+    return {} if value is None else rule(name, value)
+
+
+_material_or_rigid = partial(_or_none, partial(fields, kind=Material))
 
 
 def _approaching(name: str, value: Motion) -> dict[str, Array]:
@@ -290,7 +293,7 @@ def _formula(
 
     A tuple becomes one of arrays. The rule of an argument is that of `own_rules`, else of `_RULES`.
     The formula runs without warnings of NumPy. If the `result` has a name here, its size must lie
-    between `least` and `most`. Scalars give scalars.
+    between `least` and `most`. Scalars give scalars. One of the keyword-only arguments is given.
     """
 
     def decorate(formula: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Result]:
@@ -298,11 +301,16 @@ def _formula(
         rules = {one.name: own_rules.get(one.name) or _RULES[one.name] for one in parameters}
         defaults = {one.name: one.default for one in parameters if one.default is not one.empty}
         known = {name: rules[name](name, value) for name, value in defaults.items()}
+        ways = [one.name for one in parameters if one.kind is one.KEYWORD_ONLY]
         of_arrays: Callable[..., Any] = formula
 
         @wraps(formula)
         @quietly
         def call(*values: _Arguments.args, **named: _Arguments.kwargs) -> _Result:
+            unnamed = len(values) > len(rules) - len(ways)
+            if ways and (unnamed or sum(named.get(way) is not None for way in ways) != 1):
+                texts = (f"{formula.__name__}({next(iter(rules))}, {way}=...)" for way in ways)
+                raise InputError(f"give one number by its name: {' or '.join(texts)}")
             given = {**dict(zip(rules, values, strict=False)), **named}
             arguments: dict[str, Any] = {**defaults, **given}
             if len(given) < len(values) + len(named) or arguments.keys() != rules.keys():
@@ -346,36 +354,42 @@ def _numbers(answer: Any) -> Any:
     return answer[()]
 
 
-def _arrays(*arguments: ArrayLike) -> tuple[Array, ...]:
+def _arrays(*arguments: ArrayLike | None) -> tuple[Array, ...]:
     """Arguments of a formula: the decorator has made arrays of them, which type checkers miss."""
     return cast(tuple[Array, ...], arguments)
 
 
-@_formula()
-def solid_sphere(radius: ArrayLike, density: ArrayLike) -> Body:
+@_formula(density=partial(_or_none, positive), mass=partial(_or_none, positive))
+def solid_sphere(
+    radius: ArrayLike, *, density: ArrayLike | None = None, mass: ArrayLike | None = None
+) -> Body:
     """Body of a homogeneous sphere that strikes with its surface: k^2 = 2 r^2/5.
 
-    Arguments and errors: `planarimpact.bodies`.
+    Give the density or the mass, by name. Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
-    >>> round(float(solid_sphere(0.0127, 7800).mass), 4)
+    >>> round(float(solid_sphere(0.0127, density=7800).mass), 4)
     0.0669
+    >>> round(float(solid_sphere(0.028575, mass=0.17).gyration), 4)
+    0.0181
     """
-    r, rho = _arrays(radius, density)
-    mass = in_range("mass", rho * r * r * r * (4 / 3 * np.pi))
-    return Body(mass, r * np.sqrt(2 / 5), r)
+    if density is not None:
+        r, rho = _arrays(radius, density)
+        mass = in_range("mass", rho * r * r * r * (4 / 3 * np.pi))
+    r, m = _arrays(radius, mass)
+    return Body(m, r * np.sqrt(2 / 5), r)
 
 
 @_formula()
-def thin_shell(radius: ArrayLike, mass: ArrayLike) -> Body:
+def thin_shell(radius: ArrayLike, *, mass: ArrayLike) -> Body:
     """Body of a thin spherical shell, such as a table-tennis ball: k^2 = 2 r^2/3.
 
     Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
-    >>> round(float(mass_ratio(thin_shell(0.02, 0.0027))), 12)
+    >>> round(float(mass_ratio(thin_shell(0.02, mass=0.0027))), 12)
     2.5
     """
     r, m = _arrays(radius, mass)
@@ -383,14 +397,14 @@ def thin_shell(radius: ArrayLike, mass: ArrayLike) -> Body:
 
 
 @_formula()
-def disc(radius: ArrayLike, mass: ArrayLike) -> Body:
+def disc(radius: ArrayLike, *, mass: ArrayLike) -> Body:
     """Body of a homogeneous disc or cylinder that strikes with its rim: k^2 = r^2/2.
 
     Arguments and errors: `planarimpact.bodies`.
 
     Examples
     --------
-    >>> round(float(mass_ratio(disc(0.05, 0.2))), 12)
+    >>> round(float(mass_ratio(disc(0.05, mass=0.2))), 12)
     3.0
     """
     r, m = _arrays(radius, mass)
@@ -421,7 +435,7 @@ def mass_ratio(body: Body, other: Body = HALF_SPACE) -> Array:
 
     Examples
     --------
-    >>> round(float(mass_ratio(solid_sphere(0.01, 2500.0))), 12)
+    >>> round(float(mass_ratio(solid_sphere(0.01, density=2500))), 12)
     3.5
     """
     _, tangential, normal = _scaled_inverse_masses(body, other)
@@ -556,7 +570,7 @@ def contact(
     --------
     The yield pressure of two steel beads whose restitution is 0.8 at 1 m/s:
 
-    >>> steel, bead = Material(207e9, 0.3), solid_sphere(0.001, 7800)
+    >>> steel, bead = Material(207e9, 0.3), solid_sphere(0.001, density=7800)
     >>> pressure = yield_pressure(*contact(bead, steel, bead, steel), 1.0, 0.8)
     >>> round(float(pressure / 1e9), 2)
     2.59
@@ -621,8 +635,8 @@ def viscous_restitution(
     """Coefficient of restitution of viscous spheres with a relaxation time.
 
     It is solved to 1e-10, and 1 without relaxation. Where it would be below 0.022 the relaxation
-    time is refused. Stress = modulus (strain + tau strain rate), alike in shear and compression;
-    tau is the A of Brilliantov et al. Arguments and errors: `planarimpact.bodies`.
+    time is refused. Stress = modulus (strain + tau strain rate), alike in shear and compression.
+    Arguments and errors: `planarimpact.bodies`.
 
     Notes
     -----
@@ -633,9 +647,13 @@ def viscous_restitution(
     L = (m2 v2^2/(E* R^(1/2)))^(2/5), and e = 1 - 1.94 tau v2/L for a small loss. So 1 - e grows
     like the fifth root of the speed.
 
+    Brilliantov et al. use the first formula for the whole contact. For this material their constant
+    A is tau. But their contact pulls at its end, so the same number gives a lower e.
+
     References
     ----------
     G. Kuwabara, K. Kono, Jpn. J. Appl. Phys. 26 (1987) 1230-1233.
+    N. V. Brilliantov, F. Spahn, J.-M. Hertzsch, T. Poeschel, Phys. Rev. E 53 (1996) 5382-5392.
 
     Examples
     --------
@@ -792,7 +810,7 @@ def peak_force(
     effective_modulus: ArrayLike,
     speed: ArrayLike,
     restitution: ArrayLike,
-    loss: str,
+    loss: SpheresLoss,
 ) -> Array:
     """Peak normal force [N] of spheres that lose normal energy.
 

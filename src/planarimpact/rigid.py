@@ -10,10 +10,10 @@ import numpy as np
 
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import ArrayLike
-from planarimpact.common.results import Rebound, Regime
+from planarimpact.common.results import Rebound, Regime, of_groups
 
 
-@checks.default_errors
+@of_groups
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,

@@ -32,9 +32,11 @@ import numpy as np
 from planarimpact import bodies
 from planarimpact.bodies import Body, Material
 from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, Pair, mechanics, methods, model_form
+from planarimpact.collision.facts import cautions
 from planarimpact.collision.mechanics import Impacts, State
 from planarimpact.common import checks, files
-from planarimpact.common.arrays import Array, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.cautions import Caution
 from planarimpact.common.checks import LARGEST, LEAST, ConvergenceError, InputError
 from planarimpact.common.losses import CODES, SPHERES, VISCOUS
 from planarimpact.common.results import Regime
@@ -54,6 +56,8 @@ CHUNK = 2**15
 LABEL = "id"
 # A name as similar as this to one that is known is a misspelling.
 CLOSE = 0.8
+# Names of cautions by their sums.
+CAUTIONS = ["none", *(str(Caution(code).name) for code in range(1, sum(Caution) + 1))]
 # Of cells for which there is no header; headers have no line breaks.
 MORE = "\n"
 POINT = "; commas separate cells, and decimals have a point"
@@ -108,9 +112,9 @@ class Solved(NamedTuple):
 
     impacts: Impacts
     peak_normal: Array  # [N]
-    coupling: Array  # size of Dundurs' constant over friction, see `bodies.COUPLING`
     answers: methods.Answers
     form: Array  # [m/s]
+    caution: Integers  # codes of `Caution`
 
 
 class Result(NamedTuple):
@@ -133,6 +137,11 @@ def _model(solved: Solved) -> Any:
     models = list(dict.fromkeys(method.model for method in methods.METHODS))
     places = np.array([models.index(method.model) for method in methods.METHODS])
     return _words(places[solved.answers.place], models)
+
+
+def _caution(solved: Solved) -> Any:
+    """Names of cautions by their sums."""
+    return _words(solved.caution, CAUTIONS)
 
 
 def _peak_friction(solved: Solved) -> Array:
@@ -168,7 +177,10 @@ RESULT = {
         "N", "NaN where restitution is below 0.022", lambda s: s.peak_normal
     ),
     "peak_friction_force": Result("N", "", _peak_friction),
-    "energy_lost": Result("J", "", lambda s: mechanics.energy_lost(s.impacts, s.answers.change)),
+    "energy_lost": Result(
+        "J", "", lambda s: sum(mechanics.energies_lost(s.impacts, s.answers.change))
+    ),
+    "caution": Result("", "why the answer may not hold: --explain has the words", _caution),
 }
 
 
@@ -258,7 +270,8 @@ def solve(
         the largest error of that velocity against the continuum [m/s]; `model_form`, how far it
         would move with the other loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known;
         `regime`; `incidence` v1(0)/(mu v2(0)), 0 where v1(0) = 0, else inf without friction;
-        largest normal force, by the normal law of the loss, and friction [N]; `energy_lost [J]`.
+        largest normal force, by the normal law of the loss, and friction [N]; `energy_lost [J]`;
+        `caution`, why the answer may not hold, as names of `collision.Caution`.
 
     Raises
     ------
@@ -325,23 +338,21 @@ class Report:
         self.bad: list[tuple[int, str]] = []
         self.own: list[str] = []
         self._counts: Counter[int] = Counter()  # by place in `methods.METHODS`
-        # Of continua: Dundurs' constant over friction where it is large, and the differences to the
-        # other loss, mu v2(0).
-        self._coupling, self._form = [np.zeros(0)], [np.zeros(0)]
+        self._cautions: Counter[Caution] = Counter()
+        # Of continua: the differences to the other loss, mu v2(0).
+        self._form = [np.zeros(0)]
 
     def explain(self) -> str:
-        """Text that says how many impacts each model solved and why, a line for each."""
+        """Text: how many impacts each model solved and why, what cautions there are, and more."""
         lines = [f"{self.rows - len(self.bad)} impacts, tolerance {self.tolerance:g}"]
         for place, count in self._counts.most_common():
             method = methods.METHODS[place]
             lines.append(f"{count:>10}  {method.name:<27}  {method.why}")
-        coupling, form = np.concatenate(self._coupling), np.concatenate(self._form)
-        if coupling.size:
-            lines.append(
-                "the bodies spread differently under pressure, which no model here has: "
-                f"{coupling.size} impacts may be off by more than 0.1 mu v2(0) (Dundurs' constant "
-                f"over friction up to {coupling.max():.2g}, allowed is {bodies.COUPLING:g})"
-            )
+        lines += [
+            f"{count:>10}  caution {caution.name}: {caution.text}"
+            for caution, count in sorted(self._cautions.items())
+        ]
+        form = np.concatenate(self._form)
         if form.size:
             known = form[np.isfinite(form)]
             typical = (np.sum(known**2) / max(known.size, 1)) ** 0.5
@@ -363,13 +374,14 @@ class Report:
             raise InputError(f"loss = '{self._loss}': it does not apply, column '{given}' gives it")
         self.own = [ascii(text) for text in table if text not in {*names.values(), LABEL}]
         values = _numbers(table, names, self._loss, problems)
-        impacts, peak_normal, coupling, good = _impacts(values, problems)
+        impacts, peak_normal, good = _impacts(values, problems)
         self._refuse(problems, skip_bad, InputError)
         answers = methods.answers(impacts, self.tolerance, peaks=True)
         unsolved = {int(good[i]): message for i, message in answers.unsolved.items()}
         self._refuse(unsolved, skip_bad, ConvergenceError)
         form = model_form.model_forms(impacts, answers.place, answers.velocity)
-        solved = Solved(impacts, peak_normal, coupling, answers, form)
+        codes = cautions(impacts, answers.place, answers.regime)
+        solved = Solved(impacts, peak_normal, answers, form, codes)
         result = table.iloc[good].assign(**_after(solved, names))
         has_answer = np.ones(good.size, dtype=bool)
         has_answer[[*answers.unsolved]] = False
@@ -388,12 +400,14 @@ class Report:
             more = f"; {len(problems) - 1} more rows are bad" if len(problems) > 1 else ""
             raise kind(f"row {self.rows + first + 1}: {problems[first]}{more}")
 
-    def _count(self, solved: Solved, has_answer: Array) -> None:
+    def _count(self, solved: Solved, has_answer: Booleans) -> None:
         """Remember what `explain` says."""
         place = solved.answers.place
         self._counts.update(place[has_answer].tolist())
         continuum = methods.IS_CONTINUUM[place]
-        self._coupling.append(solved.coupling[continuum & (solved.coupling > bodies.COUPLING)])
+        for caution in Caution:
+            count = np.count_nonzero(has_answer & ((solved.caution & caution) > 0))
+            self._cautions += Counter({caution: count})
         lossy = continuum & has_answer & (solved.impacts.loss_code >= 0)
         self._form.append(solved.form[lossy] / solved.impacts.unit[lossy])
 
@@ -722,10 +736,8 @@ def _floats(cells: pd.Series) -> Array:
     return values
 
 
-def _impacts(
-    values: dict[str, Any], problems: dict[int, str]
-) -> tuple[Impacts, Array, Array, Integers]:
-    """Impacts of rows without problems, peak normal forces, couplings, and positions of the rows.
+def _impacts(values: dict[str, Any], problems: dict[int, str]) -> tuple[Impacts, Array, Integers]:
+    """Impacts of rows without problems, peak normal forces, and positions of the rows.
 
     Problems of impacts are added to the others.
     """
@@ -733,24 +745,24 @@ def _impacts(
         good = np.delete(np.arange(values["radius"].size), list(problems))
         try:
             columns = {name: column[good] for name, column in values.items()}
-            impacts, peak, coupling = _of_good(columns)
+            impacts, peak = _of_good(columns)
             found = mechanics.problems(impacts) | mechanics.problems_of_normals(impacts.normal)
         except bodies.OutOfRange as error:
             found = error.messages
         if not found:
-            return impacts, peak, coupling, good
+            return impacts, peak, good
         problems |= {int(good[i]): message for i, message in found.items()}
 
 
-def _of_good(values: dict[str, Any]) -> tuple[Impacts, Array, Array]:
-    """Impacts, peak normal forces and couplings; OutOfRange is that of `mechanics.impacts`."""
+def _of_good(values: dict[str, Any]) -> tuple[Impacts, Array]:
+    """Impacts and peak normal forces; OutOfRange is that of `mechanics.impacts`."""
     zero = np.zeros(values["radius"].size)
 
     def body(who: str) -> Body:
         """A body; the other one is a wall of infinite mass where it has no mass."""
         radius = values.get(f"{who}radius", zero)
         if f"{who}density" in values:
-            return bodies.solid_sphere(radius, values[f"{who}density"])
+            return bodies.solid_sphere(radius, density=values[f"{who}density"])
         mass, gyration = (
             values.get(f"{who}{name}", zero + np.inf) for name in ("mass", "gyration")
         )
@@ -775,10 +787,8 @@ def _of_good(values: dict[str, Any]) -> tuple[Impacts, Array, Array]:
     up = np.stack([values.get(f"normal_{axis}", zero + (axis == "z")) for axis in AXES])
     one, other = body(""), body("other_")
     impacts = mechanics.impacts(pair, up, one, state(""), other, state("other_"))
-    with np.errstate(divide="ignore", invalid="ignore"):  # without friction nothing resists
-        coupling = np.abs(bodies.dundurs(*materials)) / values["friction"]
     radius = bodies.radius_of_two(one.radius, other.radius)
-    return impacts, _peak_normal(impacts, pair.effective_modulus, radius), coupling
+    return impacts, _peak_normal(impacts, pair.effective_modulus, radius)
 
 
 def _peak_normal(impacts: Impacts, modulus: Array, radius: Array) -> Array:

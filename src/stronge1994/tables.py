@@ -16,8 +16,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 
-from planarimpact.common.arrays import ArrayLike, Booleans
+from planarimpact.common.arrays import Booleans
 
 Table: TypeAlias = pd.DataFrame
 Columns: TypeAlias = Mapping[str, ArrayLike]

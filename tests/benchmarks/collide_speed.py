@@ -37,9 +37,9 @@ def timed(words, function, count=1, unit="s"):
     print(f"{words:<40} {cpu:6.2f} ({clock:.2f}) {unit}", flush=True)
 
 
-def repeated(pair, body):
+def repeated(pair, body, model=None):
     for _ in range(SINGLES):
-        collide(pair, UP, body, VELOCITY, SPIN)
+        collide(pair, UP, body, VELOCITY, SPIN, model=model)
 
 
 def million(seed=1):
@@ -50,7 +50,9 @@ def million(seed=1):
     velocity, other_velocity = rng.normal(0, 2, size=(2, COUNT, 3))
     normal *= -np.sign(np.sum((velocity - other_velocity) * normal, axis=1))[:, None]
     spin, other_spin = rng.normal(0, 100, size=(2, COUNT, 3))
-    body, other = (bodies.solid_sphere(rng.uniform(1e-3, 1e-2, COUNT), 7800.0) for _ in range(2))
+    body, other = (
+        bodies.solid_sphere(rng.uniform(1e-3, 1e-2, COUNT), density=7800.0) for _ in range(2)
+    )
     groups = {
         "friction": rng.uniform(0.05, 0.6, COUNT),
         "stiffness_ratio": rng.uniform(1.0, 1.5, COUNT),
@@ -66,9 +68,12 @@ def million(seed=1):
 
 
 if __name__ == "__main__":
-    ball = bodies.solid_sphere(0.01, 2000.0)
+    ball = bodies.solid_sphere(0.01, density=2000.0)
     for words, pair in SINGLE.items():
         timed(f"one impact, {words}", lambda pair=pair: repeated(pair, ball), SINGLES, "us")
+    viscous = SINGLE["viscous, e = 0.9"]
+    for name in ("lumped.hysteretic", "rigid"):
+        timed(f"one impact, {name}", lambda name=name: repeated(viscous, ball, name), SINGLES, "us")
     pairs, arguments = million()
     for words, table in pairs.items():
         timed(f"a million, {words}", lambda table=table: collide(table, *arguments))

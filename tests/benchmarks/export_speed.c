@@ -8,7 +8,7 @@ int main(void)
     FILE *file = fopen("collisions", "rb");
     if (!file || fread(x, sizeof *x, COUNT, file) != COUNT)
         return 1;
-    struct balls_body ball = balls_solid_sphere(0.01, 0.01);
+    struct balls_body ball = balls_solid_sphere_by_mass(0.01, 0.01);
     double best = 1e9, sum = 0;
     for (int repeat = 0; repeat < REPEATS; ++repeat) {
         clock_t start = clock();

@@ -1,8 +1,8 @@
 // The best time [s], and the sum of all answers. A row has normal, velocity, spin, stiffness ratio,
 // restitution and loss.
 import { readFileSync } from "node:fs";
-import { bounce, solid_sphere } from "./balls.mjs";
-const bytes = readFileSync("collisions"), ball = solid_sphere(0.01, 0.01), impacts = [];
+import { bounce, solid_sphere_by_mass } from "./balls.mjs";
+const bytes = readFileSync("collisions"), ball = solid_sphere_by_mass(0.01, 0.01), impacts = [];
 const x = new Float64Array(bytes.buffer, bytes.byteOffset, COUNT * 12);
 for (let i = 0; i < x.length; i += 12) {
     const [stiffness_ratio, restitution, loss] = x.subarray(i + 9, i + 12);

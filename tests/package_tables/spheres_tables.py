@@ -44,36 +44,36 @@ class Plan(NamedTuple):
     ----------
     exponent : int
         Numbers are multiples of 2^-exponent.
-    edges : tuple of int
-        Intervals of t and u between which edges are interpolated.
+    edges : dict
+        By loss the intervals of t and u between which edges are interpolated.
     nodes : dict
         For each panel the nodes over s of each patch, those over t, and those over u.
     """
 
     exponent: int
-    edges: tuple[int, int]
+    edges: dict[str, tuple[int, int]]
     nodes: dict[str, tuple[tuple[int, ...], int, int]]
 
 
 PLANS = {
     "fine": Plan(
         18,
-        (128, 64),
+        {"viscous": (128, 64), "plastic": (128, 80)},
         {
-            "viscous": ((25, 21, 13, 13, 17), 25, 25),
-            "plastic_low": ((13, 21, 33, 49), 49, 25),
-            "plastic_middle": ((17, 25, 33, 13), 33, 33),
-            "plastic_high": ((13, 25, 33, 17), 65, 17),
+            "viscous": ((25, 21, 13, 13, 17), 29, 31),
+            "plastic_low": ((13, 21, 33, 49), 49, 37),
+            "plastic_middle": ((17, 25, 33, 13), 33, 51),
+            "plastic_high": ((13, 25, 33, 17), 65, 21),
         },
     ),
     "coarse": Plan(
         12,
-        (64, 32),
+        {"viscous": (64, 32), "plastic": (64, 40)},
         {
-            "viscous": ((9, 9, 7, 5, 9), 13, 9),
-            "plastic_low": ((9, 9, 13, 17), 17, 9),
-            "plastic_middle": ((7, 9, 13, 9), 9, 9),
-            "plastic_high": ((7, 9, 13, 9), 17, 9),
+            "viscous": ((9, 13, 7, 5, 9), 17, 17),
+            "plastic_low": ((9, 9, 13, 17), 17, 11),
+            "plastic_middle": ((7, 9, 13, 9), 9, 11),
+            "plastic_high": ((7, 9, 13, 9), 17, 11),
         },
     ),
 }
@@ -82,7 +82,8 @@ PLANS = {
 def make(name: str = "fine") -> Table:
     """Make a table, one of `PLANS`; the fine one takes some minutes."""
     plan = PLANS[name]
-    limits = spheres_thresholds.limits(b_at(np.linspace(0.0, 1.0, plan.edges[1] + 1)))
+    u = np.linspace(0.0, 1.0, plan.edges["plastic"][1] + 1)
+    limits = spheres_thresholds.limits(b_at("plastic", u))
     panels = {}
     for panel, (over_s, *_) in plan.nodes.items():
         edges = edges_over(panel, plan, limits)
@@ -111,18 +112,19 @@ def _rounded(values: Array, exponent: int) -> Array:
     return table.real(table.whole(values, exponent), exponent)
 
 
-def b_at(u: Array) -> Array:
-    """b = beta/zeta^2 at u."""
-    return table.B_LEAST + u * (table.B_MOST - table.B_LEAST)
+def b_at(loss: str, u: Array) -> Array:
+    """b = beta/zeta^2 at u, the inverse of `table.over_b`."""
+    least, most, _ = table.SPANS[loss]
+    return least + u * (most - least)
 
 
 def e_at(name: str, t: Array, limits: Array) -> Array:
     """Restitution at t, the inverse of `table.over_e`."""
-    low, high = limits
+    (low, high), (*_, least) = limits, table.SPANS[table.loss_of(name)]
     if name == "viscous":
-        return table.E_LEAST + t * (1 - table.E_LEAST)
+        return least + t * (1 - least)
     if name == "plastic_low":
-        return table.E_LEAST / (1 - (1 - (1 - t) ** 2) * (1 - table.E_LEAST / low))
+        return least / (1 - (1 - (1 - t) ** 2) * (1 - least / low))
     if name == "plastic_middle":
         return low + t * (high - low)
     return 1 - t**4 * (1 - high)
@@ -130,8 +132,10 @@ def e_at(name: str, t: Array, limits: Array) -> Array:
 
 def edges_over(name: str, plan: Plan, limits: Array) -> Array:
     """Edges of a panel that vary, rounded, as `Panel` has them."""
-    t, u = np.meshgrid(*(np.linspace(0.0, 1.0, count + 1) for count in plan.edges), indexing="ij")
-    b = b_at(u).ravel()
+    loss = table.loss_of(name)
+    even = (np.linspace(0.0, 1.0, count + 1) for count in plan.edges[loss])
+    t, u = np.meshgrid(*even, indexing="ij")
+    b = b_at(loss, u).ravel()
     e = e_at(name, t, limits[:, None]).ravel()
     if name == "viscous":
         e = np.minimum(e, VISCOUS)
@@ -153,7 +157,7 @@ def nodes_of(name: str, plan: Plan, edges: Array, limits: Array, number: int) ->
     s, t, u = np.meshgrid(*(np.linspace(0.0, 1.0, count) for count in shape), indexing="ij")
     y, b, e = impacts(name, edges, limits, number, s.ravel(), t.ravel(), u.ravel())
     y = np.maximum(y, LEAST_INCIDENCE)
-    values = solved(name.partition("_")[0], y, b, e)
+    values = solved(table.loss_of(name), y, b, e)
     if number == 0:
         values /= np.stack([y, y, y * y])
     return values.reshape(FUNCTIONS, *shape)
@@ -163,7 +167,7 @@ def impacts(
     name: str, edges: Array, limits: Array, number: int, s: Array, t: Array, u: Array
 ) -> tuple[Array, Array, Array]:
     """y, b and e at places of a patch."""
-    b = b_at(u)
+    b = b_at(table.loss_of(name), u)
     even = np.linspace(0.0, 1.0, limits.shape[1])
     e = e_at(name, t, np.stack([np.interp(u, even, limit) for limit in limits]))
     ends = table.edges_of(name, table.varying_edges(edges, t, u), b, e)

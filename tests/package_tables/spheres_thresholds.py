@@ -35,12 +35,12 @@ COARSE = 2.0**-14
 
 
 def friction_falls(b: Array, e: Array) -> Array:
-    """Viscous: incidence from which friction falls as soon as the first slip ends, shape (n,).
+    """Viscous: (y - 1)/(b - 1) from which friction falls as the first slip ends, shape (n,).
 
     Examples
     --------
     >>> float(friction_falls(np.array([2.5]), np.array([0.5]))[0].round(3))
-    1.426
+    0.284
     """
     motion = ViscousMotion(e)
 
@@ -50,18 +50,18 @@ def friction_falls(b: Array, e: Array) -> Array:
         return (tau * b[which] * force - v - tau * v**2 / (2 * approach),)
 
     v = roots.crossing(fall, motion.velocity_at_largest_force, np.ones(e.size))
-    return _slips_until(v, b)
+    return 1 - v
 
 
 def lasts_to_largest_force(b: Array, e: Array) -> Array:
-    """Viscous: incidence from which the first slip lasts to the largest force, shape (n,).
+    """Viscous: (y - 1)/(b - 1) from which the first slip lasts to the largest force, shape (n,).
 
     Examples
     --------
     >>> float(lasts_to_largest_force(np.array([2.5]), np.array([0.5]))[0].round(3))
-    1.912
+    0.608
     """
-    return _slips_until(ViscousMotion(e).velocity_at_largest_force, b)
+    return 1 - ViscousMotion(e).velocity_at_largest_force
 
 
 def slides_at_the_end(b: Array, e: Array) -> Array:
@@ -98,7 +98,7 @@ def limits(b: Array) -> Array:
     array([[0.692, 0.485],
            [0.831, 0.618]])
     """
-    low, high = np.full((2, b.size), [[0.3], [0.99]])
+    low, high = np.full((2, b.size), [[0.3], [1 - 1e-9]])
 
     def at_all(which: Any, e: Array) -> tuple[Array]:
         alike = sliding.limit_alike(b[which], 1.0, e)
@@ -114,8 +114,3 @@ def limits(b: Array) -> Array:
 def slides_from(b: Array, e: Array) -> Array:
     """Incidence from which plastic spheres slide throughout."""
     return PlasticMotion(e).slides_from(b, np.ones_like(b))
-
-
-def _slips_until(v: Array, b: Array) -> Array:
-    """Incidence at which the first slip ends at a normal velocity."""
-    return b - (b - 1) * v

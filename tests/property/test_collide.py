@@ -26,7 +26,7 @@ COUNT = 12_000
 ROUNDING = 1e-12
 WALL = bodies.HALF_SPACE
 STEEL = bodies.Material(207e9, 0.3)
-BALL = bodies.solid_sphere(0.01, 7800.0)
+BALL = bodies.solid_sphere(0.01, density=7800.0)
 
 
 def of_steel(friction, restitution, loss="plastic"):
@@ -200,13 +200,14 @@ def sprayed(rng):
     """
     near = np.array([0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3, 2e-2, -2e-2])
     rows = []
-    for e in (*spheres.LEAST_RESTITUTION * (1 + near[:3]), 0.6, rng.uniform(0.3, 0.9), 1 - 1e-9, 1):
+    ends = 0.1, 0.1 * (1 + near[1]), *0.3 * (1 + near[:3])  # nothing is solved below 0.1
+    for e in (*ends, 0.6, rng.uniform(0.3, 0.9), 1 - 1e-9, 1):
         for zeta2 in (1.0, rng.uniform(1.0, 1.5), 1.5):
             for loss in spheres.LOSSES:
-                least = max(e, 0.3)
+                least = max(e, spheres.LEAST_RESTITUTION[loss])
                 limit = float(continuum.slip_throughout_limit(3.5, zeta2, least, loss=loss))
                 table = spheres.table.shipped()
-                _, tabled, _ = spheres.table.of_one(table, 0.0, 3.5 / zeta2, least, True)
+                _, tabled, _ = spheres.table.of_one(table, 0.0, 3.5 / zeta2, max(e, 0.3), True)
                 at = zeta2, 3.5, limit, tabled * zeta2, (limit + tabled * zeta2) / 2
                 rows += [(zeta2, e, loss, x) for x in (*at, rng.uniform(0, 9))]
     zeta2, e, loss, x = map(np.array, zip(*rows, strict=True))
@@ -221,7 +222,11 @@ LONG_SEEDS = (pytest.param(seed, marks=pytest.mark.long) for seed in range(30))
 @pytest.mark.parametrize("seed", [100, *LONG_SEEDS])
 def test_one_impact_is_that_of_many(seed):
     """Both have the same answer, to rounding, and the single one is taken by its own function."""
-    up, still, ball = np.array([0.0, 0.0, 1.0]), np.zeros(3), bodies.solid_sphere(0.01, 2500.0)
+    up, still, ball = (
+        np.array([0.0, 0.0, 1.0]),
+        np.zeros(3),
+        bodies.solid_sphere(0.01, density=2500.0),
+    )
     pairs, x, distance = sprayed(np.random.default_rng(seed))
     velocity = x[:, None] * [0.3, 0, 0] - up
     many, plain = collide(pairs, up, ball, velocity, still), 0
@@ -390,3 +395,24 @@ def test_a_caller_may_change_its_vectors_afterwards():
     result = collide(pair, [0, 0, 1], BALL, velocity, [0, 0, 0])
     velocity[:] = result.velocity
     assert result.model_form == wanted > 0
+
+
+@pytest.mark.parametrize("law", [{"restitution": 0.8}, {"yield_pressure": 2e9}])
+def test_replaced_fields_are_those_of_a_new_pair(law):
+    """Of one pair and of a table; the old pair stays as it was."""
+    for friction in (0.2, [[0.2], [0.3]]):
+        given = {"friction": friction, "loss": "plastic"} | law
+        pair = Pair(STEEL, **given)
+        for change in ({"friction": 0.4}, {"friction": [0.1, 0.2]}, dict(law), {"loss": "plastic"}):
+            change |= {name: 0.9 * value for name, value in law.items()}
+            found, wanted = pair.replace(**change), Pair(STEEL, **given | change)
+            wanted = wanted if found.shape == wanted.shape else wanted.broadcast(found.shape)
+            for name in Pair.__slots__:
+                one, other = (np.ravel(getattr(pair, name)) for pair in (found, wanted))
+                np.testing.assert_array_equal(one, other)
+        np.testing.assert_array_equal(pair.friction, friction)
+    other = pair.replace(restitution=0.5, yield_pressure=None, loss="plastic")
+    assert (other.restitution == 0.5).all() and np.isnan(other.yield_pressure).all()
+    if "yield_pressure" in law:  # whose loss goes with it
+        polymer = pair.replace(yield_pressure=None, relaxation_time=1e-7)
+        assert (polymer.loss == "viscous").all()

@@ -161,6 +161,18 @@ def test_loss_and_compliance_vanish_without_a_jump(impacts, loss):
     assert (np.abs(answer - stiff) <= np.sqrt(beta * zeta2) + rounding(impacts, loss)).all()
 
 
+def test_one_impact_has_the_bits_of_many(impacts, found, loss):
+    """One is solved in floats, many in arrays: at each threshold and beside it, in every regime."""
+    if loss == "viscous":  # dashpots have one way
+        return
+    places, regimes = range(0, impacts.shape[1], 3), set()
+    for place, point in zip(places, impacts[:, ::3].T.tolist(), strict=True):
+        alone = lumped.rebound(*point, loss=loss)
+        assert tuple(alone[:4]) == tuple(field[place] for field in found[:4]), point
+        regimes.add(alone.regime)
+    assert regimes > {Regime.STICK_SLIP, Regime.SLIP_STICK_SLIP, Regime.SLIP_THROUGHOUT}
+
+
 def test_one_and_many_and_history_agree(impacts, found, loss):
     """Along a contact friction keeps its limit, and the tangential energy never grows."""
     x, beta, zeta2, e = impacts

@@ -54,6 +54,16 @@ def test_every_impact_at_every_size_has_all_its_digits(tables):
         assert (error <= 100 * ULP * (np.abs(exact) + condition)).all(), name
 
 
+def test_one_impact_has_the_digits_of_the_table_too(tables):
+    """Of every threshold and every end of the parameters, in the way of floats."""
+    table = tables["hysteretic"]
+    many = answers(table, "hysteretic")
+    for place, point in enumerate(table[:4].T.tolist()):
+        alone = lumped.rebound(*point)
+        assert tuple(alone[:4]) == tuple(field[place] for field in many[:4]), point
+        assert isinstance(alone.velocity, float) and isinstance(alone.regime, Regime)
+
+
 def test_every_viscous_impact_has_12_digits_and_its_energy(tables):
     table = tables["viscous"]
     x, beta, *_ = table

@@ -79,6 +79,7 @@ RULES = {
     "of a law": [*FINITE, 0.02, 1.1],
     "poisson_ratio": [*FINITE, -1.0, 0.51],
     "angle": [*FINITE, 90.0, -90.0],
+    "two angles": [*FINITE, 45.0, [0.0, 91.0], [-1.0, 45.0], [0.0, 1.0, 2.0]],
     "tolerance": [*FINITE, 0.0, -0.1],
     "count": [*UNITS, 2.5, "9", True, 0, -1, np.nan, None, 10**8],
     "vector": [*FINITE, [1.0, 0.0], [0.0, np.nan, 1.0], ["0", "0", "1"], [0.0, Inch(), 1.0]],
@@ -87,7 +88,7 @@ RULES = {
     "path": [5, None, Inch()],
     "record": [3.5, None, (1.0, 2.0, 3.0), Inch()],
 }
-BALL, STEEL = bodies.solid_sphere(0.01, 7800.0), Material(207e9, 0.3)
+BALL, STEEL = bodies.solid_sphere(0.01, density=7800.0), Material(207e9, 0.3)
 ROD = noncollinear.inverse_mass(1.0, 12**-0.5, offset=0.2, depth=0.4)
 # The rule of each argument, and a value that it allows.
 ARGUMENTS = {
@@ -142,6 +143,7 @@ ARGUMENTS = {
 VECTORS = {"normal": ("vector", [0, 0, 1]), "other": ("record", BALL)}
 VECTORS |= dict.fromkeys(("spin", "other_velocity", "other_spin"), ("vector", [0.0, 0.0, 0.0]))
 VECTORS |= {"velocity": ("vector", [1.0, 0.0, -1.0])}
+VECTORS |= dict.fromkeys(("offset", "other_offset"), ("vector", None))
 MOTION = {"normal": ("finite", 1.0)}
 OTHER_BODY, OTHER_MATERIAL = {"other": ("record", BALL)}, {"other": ("record", STEEL)}
 OF_LAW = {"restitution": ("of a law", 0.8)}
@@ -176,16 +178,16 @@ OTHERWISE = {
     fit.lines: {"found": ("record", fit.fit("yade", 3.5, bodies.stiffness_ratio(STEEL)))},
     hertz.phase_at: HERTZ,
     micro_slip.friction: {"radius": ("positive", [0.5, 1.0])},
+    models.compare: {"on": ("record", STEEL), "angle": ("two angles", (80, 90))},
     noncollinear.history: {"friction": ("from 0", 0.5), "loss": ("loss", "hysteretic")},
     noncollinear.rebound: {"friction": ("from 0", 0.5), "loss": ("loss", "hysteretic")},
     noncollinear.kinetic_energy: MOTION,
-    noncollinear.motion_after: {"impulses": ("record", (0.0, 1.0))},
     spheres.covers: dict.fromkeys(("mass_ratio", "stiffness_ratio", "restitution"), ("real", 1.0)),
     spheres.rebound: {"restitution": ("unit_interval", 0.5)},
     rigid_noncollinear.rebound: {"friction": ("from 0", 0.5), "law": ("word", "energetic")},
 }
 # Settings and switches, and arguments of any number.
-LEFT_OUT = {"settings", "materials", "forces"}
+LEFT_OUT = {"settings", "materials", "forces", "solve"}
 # Of arrays that are checked.
 UNCHECKED = {spheres.error_bound}
 DOORS = bodies, collision, continuum, fit, lumped, models, laws, noncollinear, rigid_noncollinear

@@ -11,13 +11,13 @@ from planarimpact.bodies import HALF_SPACE, Body, Material, Motion
 from tests.reference_solutions.inelastic_contact import motion_with, plastic_motion
 
 CERAMIC, GLASS = Material(380e9, 0.23), Material(70e9, 0.25)
-STEEL_BALL = bodies.solid_sphere(0.0127, 7800.0)
+STEEL_BALL = bodies.solid_sphere(0.0127, density=7800.0)
 
 
 @pytest.mark.parametrize("scale", [None, 1.0, 7.0])
 def test_mass_ratio_is_that_of_the_shape(scale):
     """Of two bodies of one shape; 1 without an arm or a rotation."""
-    shell = bodies.thin_shell(0.02, 0.0027)
+    shell = bodies.thin_shell(0.02, mass=0.0027)
     shapes = {STEEL_BALL: 3.5, shell: 2.5, Body(1.0, np.inf, 0.3): 1.0, Body(1.0, 0.3, 0.0): 1.0}
     for body, expected in shapes.items():
         other = HALF_SPACE if scale is None else Body(scale * body.mass, *body[1:])
@@ -66,7 +66,9 @@ def test_incidence_from_the_angle(x, friction):
     assert bodies.incidence_from_angle(theta, friction) == pytest.approx(x, rel=1e-12)
 
 
-@pytest.mark.parametrize("body", [STEEL_BALL, bodies.thin_shell(0.02, 0.0027), Body(3, 0.2, 0.7)])
+@pytest.mark.parametrize(
+    "body", [STEEL_BALL, bodies.thin_shell(0.02, mass=0.0027), Body(3, 0.2, 0.7)]
+)
 @pytest.mark.parametrize("spin", [0.0, -150.0, 90.0])
 @pytest.mark.parametrize("w, e", [(-2.2, 1.0), (0.0, 0.5), (3.0, 0.0)])
 def test_rebound_balances_energy_and_momentum(body, spin, w, e):
@@ -95,7 +97,7 @@ def test_rebound_balances_energy_and_momentum(body, spin, w, e):
 
 
 def test_arrays_broadcast():
-    ball = bodies.solid_sphere(np.array([0.01, 0.02]), 2500.0)
+    ball = bodies.solid_sphere(np.array([0.01, 0.02]), density=2500.0)
     motion = Motion(np.zeros((3, 1)), 1.0, 0.0)
     after = bodies.rebound_motion(ball, motion, 0.2, 0.0, 1.0)
     assert [v.shape for v in after] == [(3, 2)] * 3

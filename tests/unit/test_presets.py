@@ -1,4 +1,4 @@
-"""Presets: their numbers are those of their sources, in C and JavaScript too."""
+"""Presets and materials: their numbers are those of their sources, in C and JavaScript too."""
 
 import re
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import yaml
 
-from planarimpact import collision, export
+from planarimpact import collision, export, models
 from planarimpact.spheres.table import shipped
 from tests.reference_solutions import table_files
 
@@ -74,3 +74,33 @@ def test_c_and_javascript_have_the_same_numbers(ending, tmp_path):
         2 / 5,
         2 / 3,
     ]
+
+
+def test_materials_are_those_of_their_sources():
+    materials = models.materials()
+    assert len(materials) == 10
+    pairs = {row["pair"]: row for row in table_files.read("cornell1999/pairs")}
+    charts = {
+        "steel": ("chrome_steel", "chrome steel"),
+        "glass": ("soda_lime_glass", "soda-lime glass"),
+        "polyurethane": ("polyurethane", "polyurethane"),
+        "acetal": ("delrin", "Delrin"),
+        "aluminium": ("", "glass on aluminium"),
+    }
+    for name, (prefix, pair) in charts.items():
+        known = materials[name]
+        assert known["restitution"]["value"] == float(pairs[pair]["restitution [1]"])
+        for field in ("young_modulus", "poisson_ratio") if prefix else ():
+            assert known[field]["value"] == parameter("cornell1999", f"{prefix}_{field}")
+    for field in ("young_modulus", "poisson_ratio"):
+        found = materials["alumina"][field]["value"]
+        assert found == parameter("kharaz2001", f"sphere_{field}")
+    assert materials["alumina"]["restitution"]["value"] == parameter("kharaz2001", "restitution")
+    for name, known in materials.items():
+        assert {"young_modulus", "poisson_ratio", "loss"} <= known.keys(), name
+        assert all(value.keys() == {"value", "source"} for value in known.values())
+
+
+def parameter(source, name):
+    path = table_files.DATA / source / "source.yaml"
+    return yaml.safe_load(path.read_text(encoding="utf-8"))["parameters"][name]["value"]

@@ -17,7 +17,8 @@ PATHS += [ROOT / "data/scenes/README.md", ROOT / "src/planarimpact/README.md"]
 TEXTS = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in PATHS}
 MAIN = TEXTS["README.md"]
 # Pages whose examples have a test of their own, or none.
-PAGES = ["CONTRIBUTING.md", "workflow/examples/cluster/README.md", "workflow/notebooks/README.md"]
+PAGES = ["CONTRIBUTING.md", "workflow/notebooks/README.md"]
+PAGES += [f"workflow/examples/{name}/README.md" for name in ("cluster", "pooltool")]
 PAGES += [
     f"workflow/{name}.md" for name in ("add_a_figure", "models_and_codes", "your_model_your_data")
 ]

@@ -4,11 +4,13 @@
 stiffness, and what takes the energy. `scene` solves tables of impacts by the same functions, which
 also decide which model answers (`methods`): a formula where it is exact, the table of spheres where
 it covers the impact, or the continuum, solved. `mechanics` has the vectors, `pairs`
-what materials do, `one_impact` one impact, `model_form` what the other loss would change.
+what materials do, `one_impact` one impact, `facts` what is computed when it is asked for,
+`model_form` what the other loss would change, `off_centre` bodies that strike off their centre.
 
-Bodies touch at one point, and the line of their centres of mass is the normal there. A body whose
-radius of gyration is not the same about every axis must turn about an axis across its plane of
-incidence. All vectors have one set of axes. Spin is the right-handed vector of angular velocity.
+Bodies touch at one point, and the line of their centres of mass is the normal there, but for bodies
+with an offset. A body whose radius of gyration is not the same about every axis must turn about an
+axis across its plane of incidence. All vectors have one set of axes. Spin is the right-handed
+vector of angular velocity.
 """
 
 from __future__ import annotations
@@ -21,9 +23,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact import bodies
+from planarimpact import bodies, models
 from planarimpact.bodies import Body
-from planarimpact.collision import one_impact
+from planarimpact.collision import methods, off_centre, one_impact
+from planarimpact.collision.facts import Facts
 from planarimpact.collision.mechanics import (
     Impacts,
     State,
@@ -31,21 +34,23 @@ from planarimpact.collision.mechanics import (
     impacts,
     problems,
     problems_of_normals,
+    taken,
 )
 from planarimpact.collision.methods import TOLERANCE as TOLERANCE
-from planarimpact.collision.methods import Answers, answers
-from planarimpact.collision.model_form import model_forms
+from planarimpact.collision.methods import Answers
 from planarimpact.collision.pairs import RESTITUTION_FROM as RESTITUTION_FROM
 from planarimpact.collision.pairs import Pair
 from planarimpact.collision.presets import Preset, presets
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Integers
+from planarimpact.common.cautions import Caution
 from planarimpact.common.checks import InputError
 from planarimpact.common.losses import NAMES
 from planarimpact.common.results import Regime
 from planarimpact.continuum import Unsolved
+from planarimpact.models import Model
 
-__all__ = ["Collision", "Pair", "Preset", "collide", "presets"]
+__all__ = ["Caution", "Collision", "Pair", "Preset", "collide", "presets"]
 
 
 @dataclass(eq=False)
@@ -67,11 +72,15 @@ class Collision:
         e, at the speed of the impact.
     error_bound : ndarray, shape (...)
         Largest error of the tangential velocity of the contact point after the impact, against the
-        continuum [m/s]; less than v1(0). It is measured by searches, not proved.
+        continuum [m/s]; less than v1(0). It is measured by searches, not proved. NaN where a model
+        was asked for that has no such bound.
     regime : ndarray of int, shape (...), or Regime
         Codes of `Regime`: the order of stick and slip, NO_IMPACT where bodies do not approach.
     loss_code : ndarray of int, shape (...)
         Of the loss, in `planarimpact.common.losses.NAMES`; -1 where e = 1 or without an impact.
+        It is that of the model, where one was asked for that has a loss.
+    model, model_form, caution, energy_lost
+        Computed when they are asked for; their own help says more.
     """
 
     velocity: Array
@@ -82,25 +91,54 @@ class Collision:
     incidence: Array
     restitution: Array
     error_bound: Array
-    regime: Any
+    regime: Regime | Integers
     loss_code: Integers
-    # Gives it, or has the impact alone solved as an array; as partial functions can be pickled.
-    _model_form: Callable[[], Array | Collision] = field(repr=False)
+    # Gives the rest, when it is asked for; as partial functions can be pickled.
+    _facts: Callable[[], Facts] = field(repr=False)
 
     @property
     def loss(self) -> NDArray[np.str_]:
-        """What took the energy: viscous or plastic, or none where e = 1 or without an impact."""
+        """What took the energy, by its name; none where e = 1 or without an impact."""
         return NAMES[self.loss_code]
+
+    @cached_property
+    def model(self) -> NDArray[np.str_]:
+        """Name of the model that answered, as in `scene`; "no impact" where there is none."""
+        return self._facts().model()
 
     @cached_property
     def model_form(self) -> Array:
         """How far the velocity of the contact point would move with the other loss [m/s].
 
         Without a sign; no tolerance makes it smaller. It is 0 where e = 1, NaN without an impact or
-        where nothing is known. It takes as long as `collide` when it is first asked for.
+        where nothing is known, or where the continuum would have to be solved and may not be. It
+        takes as long as `collide` with the other loss when it is first asked for.
         """
-        found = self._model_form()
-        return found.model_form if isinstance(found, Collision) else found
+        return self._facts().model_form()
+
+    @cached_property
+    def caution(self) -> Integers | Caution:
+        """Why the answer may not hold, as codes of `Caution`; 0 where nothing is known against it.
+
+        `collision.Caution(code).text` has the words. Nothing is known of bodies that are given by a
+        stiffness ratio in place of their materials.
+
+        >>> from planarimpact import bodies
+        >>> steel = Pair(bodies.Material(2e11, 0.3), friction=0.3, restitution=0.9, loss="plastic")
+        >>> ball = bodies.solid_sphere(0.01, density=7800)
+        >>> collide(steel, [0, 0, 1], ball, [1.0, 0, -1.0], [0, 0, 0]).caution
+        <Caution.FRICTION|DISSIMILAR: 6>
+        """
+        return self._facts().caution()
+
+    @cached_property
+    def energy_lost(self) -> Array:
+        """Kinetic energy lost by both bodies [J]: along the normal and the surface, shape (..., 2).
+
+        Along the normal the loss takes it. Along the surface friction takes it, and with viscous or
+        plastic loss also the material.
+        """
+        return self._facts().energy_lost()
 
 
 def collide(
@@ -114,6 +152,10 @@ def collide(
     other_spin: ArrayLike = (0.0, 0.0, 0.0),
     *,
     tolerance: float = TOLERANCE,
+    model: str | Model | None = None,
+    solve: bool = True,
+    offset: ArrayLike | None = None,
+    other_offset: ArrayLike | None = None,
 ) -> Collision:
     """Velocities and spins of two bodies after their impact; all arguments broadcast.
 
@@ -133,12 +175,28 @@ def collide(
         Before the impact [rad/s], right-handed.
     tolerance : float
         Largest error of the velocity of the contact point, in mu v2(0), against the continuum;
-        1e-10 to 1. In v1(0) it is at most the default. The default is that of the table of spheres:
+        1e-10 to 1. In v1(0) it is at most the default. Of models that are asked for only those
+        beginning with "continuum" have it. The default is that of the table of spheres:
         about a microsecond an impact in an array, some tens of them for one alone, and tens of
         milliseconds for the first one, as the table is read.
-        Impacts for which the table is too coarse, or which it does not cover (e below 0.3, zeta^2
-        above 1.6), take milliseconds each in a batch of hundreds, alone about a tenth of a second,
-        and at mass ratios of hundreds up to seconds; `continuum.rebound` says what it can meet.
+        Impacts for which the table is too coarse, or which it does not cover (e below 0.1, with
+        plastic loss 0.3; m2/m1 over zeta^2 beyond 1.1 to 3.5; zeta^2 above 3.5), take milliseconds
+        each in a batch of hundreds, alone 0.1 to 0.3 s, and at mass ratios of hundreds up to
+        seconds; `continuum.rebound` says what it can meet.
+    model : str or Model, optional
+        A name of `planarimpact.models.MODELS`, or a Model of your own, that answers in place of the
+        cheapest one within the tolerance: "lumped.hysteretic" is the paper's, "rigid" has no
+        compliance. The restitution is that of the pair at the speed of the impact; the loss is that
+        of the model, and a pair may be of "viscous" or "plastic" materials all the same, unless the
+        model has the other one of these two.
+    solve : bool
+        Whether the continuum may be solved. If not, an impact that needs it is refused.
+    offset, other_offset : array_like, shape (..., 3), optional
+        Of bodies that strike off their centre: the part along the surface of the way from the
+        centre of mass to the point of contact [m]; the radius is the part along the normal. All
+        motion must be in the plane of offset and normal. See `collision.off_centre`: the model is
+        "lumped.hysteretic", "lumped.unloading-stiffness" or "rigid", and the first one if it is
+        left out and the pair has e = 1 or a loss of this name.
 
     Returns
     -------
@@ -148,7 +206,8 @@ def collide(
     Raises
     ------
     InputError
-        If an argument is not allowed, by its index. Where the contact sticks e must be 0.1 or more.
+        If an argument is not allowed, by its index; also one that the model refuses. Without a
+        model e must be 0.1 or more where the contact sticks.
     ConvergenceError
         If the continuum does not reach the tolerance.
 
@@ -167,49 +226,105 @@ def collide(
     >>> result = collide(rubber, [0, 0, 1], ball, [2.0, 0, -4.0], [0, -300.0, 0])
     >>> result.velocity.round(2).tolist(), result.spin.round(0).tolist()
     ([-2.12, 0.0, 3.6], [0.0, 112.0, 0.0])
-    >>> result.regime.name
-    'SLIP_STICK_SLIP'
+    >>> result.regime.name, str(result.model)
+    ('SLIP_STICK_SLIP', 'continuum.viscous')
+
+    By the paper's model it comes back faster:
+
+    >>> arguments = rubber, [0, 0, 1], ball, [2.0, 0, -4.0], [0, -300.0, 0]
+    >>> collide(*arguments, model="lumped.hysteretic").velocity.round(2).tolist()
+    [-2.47, 0.0, 3.6]
     """
     vectors = normal, velocity, spin, other_velocity, other_spin
     _refuse_types(pair, body, other)
     if type(tolerance) is not float or not 1e-10 <= tolerance <= 1:  # the check takes its time
         tolerance = checks.number("tolerance", tolerance, "numbers from 1e-10 to 1", 1e-10, 1)
-    copies = [one_impact.floats(vector) for vector in vectors]  # the caller may change its own
-    fields = one_impact.collide(pair, body, other, copies, tolerance)
-    if not fields:
-        return _collide_arrays(pair, body, other, vectors, tolerance)
-    return Collision(*[*fields, partial(_collide_arrays, pair, body, other, copies, tolerance)])
+    chosen = None if model is None else models.get(model)
+    if solve is not True and solve is not False:
+        raise InputError(f"solve = {checks.brief(solve)}: allowed are True and False")
+    if offset is not None or other_offset is not None:
+        zero = (0.0, 0.0, 0.0)
+        offsets = zero if offset is None else offset, zero if other_offset is None else other_offset
+        return _collide_arrays(pair, body, other, (*vectors, *offsets), tolerance, chosen, solve)
+    if not (chosen and chosen not in one_impact.BY_MODEL):
+        floats = [one_impact.floats(vector) for vector in vectors]
+        fields = one_impact.collide(pair, body, other, floats, tolerance, chosen, solve)
+        if fields:
+            return Collision(*fields)
+    return _collide_arrays(pair, body, other, vectors, tolerance, chosen, solve)
 
 
 @checks.default_errors
 def _collide_arrays(
-    pair: Pair, body: Body, other: Body, values: Sequence[ArrayLike], tolerance: float
+    pair: Pair,
+    body: Body,
+    other: Body,
+    values: Sequence[ArrayLike],
+    tolerance: float,
+    model: Model | None,
+    solve: bool,
 ) -> Collision:
-    """State after any number of impacts, from arrays."""
-    names = "normal", "velocity", "spin", "other_velocity", "other_spin"
-    vectors = [_vectors(name, value) for name, value in zip(names, values, strict=True)]
+    """State after any number of impacts, from arrays; offsets are the last of seven vectors."""
+    names = "normal", "velocity", "spin", "other_velocity", "other_spin", "offset", "other_offset"
+    vectors = [_vectors(name, value) for name, value in zip(names, values, strict=False)]
+    _refuse_models(model, solve, len(vectors) > 5)
     fields = [np.asarray(value, dtype=float) for value in (*body, *other)]
     shape = _common_shape(pair, vectors, fields)
     pair = pair.broadcast(shape)
     fields = [np.broadcast_to(value, shape).reshape(-1) for value in fields]
     body, other = Body(*fields[:3]), Body(*fields[3:])
     vectors = [np.broadcast_to(v, (*shape, 3)).reshape(-1, 3).T.copy() for v in vectors]
-    before, other_before = State(*vectors[1:3]), State(*vectors[3:])
+    before, other_before, offsets = State(*vectors[1:3]), State(*vectors[3:5]), vectors[5:]
+    arguments = pair, vectors[0], body, before, other, other_before
+    plane = None
     try:
-        given = impacts(pair, vectors[0], body, before, other, other_before)
+        if offsets:
+            given, plane = off_centre.impacts(*arguments, *offsets)
+        else:
+            given = impacts(*arguments)
     except bodies.OutOfRange as error:
         raise InputError(f"{_place(min(error.messages), shape)}{error}") from None
     # Also where nothing approaches: a normal of two centres at one place is no number, or zero.
-    for i, problem in problems_of_normals(given.normal).items():
-        raise InputError(f"{_place(i, shape)}{problem}")
+    _refuse(problems_of_normals(given.normal), shape)
     approach = np.flatnonzero(given.v2 > 0)
     met = given if approach.size == given.v2.size else given.take(approach)
-    for i, problem in problems(met).items():
-        raise InputError(f"{_place(approach[i], shape)}{problem}")
-    answer = answers(met, tolerance)
+    energies = None
+    if model:
+        loss_code, wrong = methods.lost_by(model, met.loss_code)
+        _refuse(wrong, shape, approach)
+        met = met._replace(loss_code=loss_code)
+    elif not plane:
+        _refuse(problems(met), shape, approach)
+    if plane:
+        plane = taken(plane, approach, given.v2.size)
+        answer, impulses, energies = off_centre.answers(met, plane, model)
+        states = off_centre.after(met, plane, impulses)
+    else:
+        if model:
+            answer = methods.answers_of(model, met, tolerance)
+        else:
+            answer = methods.answers(met, tolerance, solve=solve)
+        states = after(met, answer.change)
+    _refuse(answer.refused, shape, approach)
     for i, problem in answer.unsolved.items():
         raise Unsolved(f"{_place(approach[i], shape)}{problem}", approach[[i]])
-    return _collision(given, met, approach, answer, shape)
+    whole = partial(_whole, approach, given.v2.size, shape)
+    numbers = Impacts._make([None] * 6 + [*met[6:]])  # in less memory, also where it is pickled
+    asked = [model] if model else [*off_centre.LUMPED.values()] if plane else []
+    micro_slip = model is not None and methods.has_micro_slip(model)
+    facts = partial(
+        Facts,
+        whole,
+        numbers,
+        answer.place.astype(np.int8),
+        answer.change,
+        answer.regime,
+        tuple(one.name for one in asked),
+        micro_slip,
+        energies,
+        solve=solve,
+    )
+    return _collision(given, met, answer, states, whole, facts)
 
 
 def _refuse_types(pair: Pair, body: Body, other: Body) -> None:
@@ -218,8 +333,18 @@ def _refuse_types(pair: Pair, body: Body, other: Body) -> None:
         raise InputError(f"pair = {checks.brief(pair)}: allowed is a planarimpact.Pair")
     for name, value in (("body", body), ("other", other)):
         if not isinstance(value, Body):
-            allowed = "a bodies.Body, such as bodies.solid_sphere(radius, density)"
+            allowed = "a bodies.Body, such as bodies.solid_sphere(radius, density=...)"
             raise InputError(f"{name} = {checks.brief(value)}: allowed is {allowed}")
+
+
+def _refuse_models(model: Model | None, solve: bool, has_offset: bool) -> None:
+    """Refuse a model that does not have such impacts, or may not be solved."""
+    if model and has_offset and model not in off_centre.CHOICES:
+        names = ", ".join(choice.name for choice in off_centre.CHOICES)
+        raise InputError(f"model = '{model.name}': with an offset allowed are {names}")
+    solved = model and methods.has_micro_slip(model) and model.name.startswith("continuum")
+    if model and solved and not solve:
+        raise InputError(f"solve = False: model = '{model.name}' is solved; allowed are others")
 
 
 def _vectors(name: str, value: ArrayLike) -> Array:
@@ -242,6 +367,12 @@ def _common_shape(pair: Pair, vectors: list[Array], fields: list[Array]) -> tupl
         ) from None
 
 
+def _refuse(messages: dict[int, str], shape: tuple[int, ...], rows: Integers | None = None) -> None:
+    """Refuse the first impact that has a message; `rows` are those that messages are about."""
+    for i, message in messages.items():
+        raise InputError(f"{_place(i if rows is None else rows[i], shape)}{message}")
+
+
 def _place(index: int, shape: tuple[int, ...]) -> str:
     """Which impact a message is about, by its index in arrays of this shape."""
     where = ", ".join(map(str, np.unravel_index(index, shape)))
@@ -249,13 +380,15 @@ def _place(index: int, shape: tuple[int, ...]) -> str:
 
 
 def _collision(
-    given: Impacts, met: Impacts, approach: Integers, answer: Answers, shape: tuple[int, ...]
+    given: Impacts,
+    met: Impacts,
+    answer: Answers,
+    states: tuple[State, State, Array],
+    whole: Callable[..., Any],
+    facts: Callable[[], Facts],
 ) -> Collision:
     """The result: states after the impacts, and those that stay as they are."""
-    whole = partial(_whole, approach, given.v2.size, shape)
-    state, other_state, impulse = after(met, answer.change)
-    without_vectors = [None] * 6 + [*met[6:]]  # in less memory, also where the result is pickled
-    form = partial(_form, whole, Impacts._make(without_vectors), answer.place, answer.velocity)
+    state, other_state, impulse = states
     regime = whole(answer.regime, Regime.NO_IMPACT)
     return Collision(
         velocity=whole(state.velocity, given.before.velocity),
@@ -263,12 +396,12 @@ def _collision(
         other_velocity=whole(other_state.velocity, given.other_before.velocity),
         other_spin=whole(other_state.spin, given.other_before.spin),
         impulse=whole(impulse, 0.0),
-        incidence=whole(met.incidence_of(np.arange(approach.size)), np.nan),
+        incidence=whole(met.incidence_of(np.arange(met.v1.size)), np.nan),
         restitution=whole(met.restitution, np.nan),
         error_bound=whole(answer.error, np.nan),
-        regime=regime if shape else Regime(int(regime)),
+        regime=regime if regime.ndim else Regime(int(regime)),
         loss_code=whole(met.loss_code, -1),
-        _model_form=form,
+        _facts=facts,
     )
 
 
@@ -280,8 +413,3 @@ def _whole(approach: Integers, count: int, shape: tuple[int, ...], values: Any, 
         everywhere[..., approach] = values
         values = everywhere
     return values.T.reshape((*shape, *values.shape[:-1]))[()]
-
-
-def _form(whole: Callable[..., Array], met: Impacts, place: Integers, velocity: Array) -> Array:
-    """Model form of impacts, by method and velocity at separation."""
-    return whole(model_forms(met, place, velocity), np.nan)

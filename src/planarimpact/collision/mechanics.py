@@ -14,7 +14,7 @@ from planarimpact.bodies import Body
 from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, Booleans, Integers
-from planarimpact.common.losses import CODES, PLASTIC
+from planarimpact.common.losses import CODES, NAMES, PLASTIC, SPHERES
 from planarimpact.continuum import inelastic
 
 # Restitution at the speed of an impact, by the quantity of a pair that it follows from.
@@ -51,6 +51,7 @@ class Impacts(NamedTuple):
     m2: Array  # normal effective mass [kg]
     mass_ratio: Array
     stiffness_ratio: Array
+    dundurs: Array  # size of Dundurs' constant, NaN where it is not known
 
     @property
     def unit(self) -> Array:
@@ -69,13 +70,15 @@ class Impacts(NamedTuple):
 
     def take(self, rows: Integers) -> "Impacts":
         """Some of the impacts."""
-        return Impacts._make(_taken(field, rows, self.v2.size) for field in self)
+        return Impacts._make(taken(field, rows, self.v2.size) for field in self)
 
 
-def _taken(field: Any, rows: Integers, count: int) -> Any:
+def taken(field: Any, rows: Integers, count: int) -> Any:
     """Some of `count` entries of an array, or of the arrays of a tuple; one stands for all."""
+    if field is None:  # left out, as nobody needs it
+        return None
     if isinstance(field, tuple):
-        return type(field)(*(_taken(part, rows, count) for part in field))
+        return type(field)(*(taken(part, rows, count) for part in field))
     return np.broadcast_to(field, (*field.shape[:-1], count))[..., rows]
 
 
@@ -84,15 +87,11 @@ def impacts(
 ) -> Impacts:
     """Impacts of bodies, arrays of shape (n,), whose states and normals have the shape (3, n).
 
-    Normals are divided by their length if it is within 1e-6 of 1: else energy would grow by a
-    share of that error, and a head-on impact would have an incidence.
-
     v2 may be 0 or negative, where nothing approaches. OutOfRange says where a velocity of contact,
     a mass or a mass ratio is beyond the rule of sizes, or a relaxation time beyond its law.
     `problems_of_normals` finds other normals.
     """
-    length = np.sqrt(dot(normal, normal))
-    normal = normal / np.where(np.abs(length - 1) <= checks.LENGTH_ERROR, length, 1.0)
+    normal = unit_normal(normal)
     relative = contact_velocity(before, body, -normal)
     relative = relative - contact_velocity(other_before, other, normal)
     along = dot(relative, normal)
@@ -101,7 +100,7 @@ def impacts(
     checks.in_range("tangential velocity of contact", v1, 0.0)
     checks.in_range("normal velocity of approach", np.where(v2 > 0, v2, 1.0))
     _, m2 = bodies.effective_masses(body, other)
-    restitution = _restitution(pair, body, other, m2, v2)
+    e = restitution(pair, body, other, m2, v2)
     return Impacts(
         body,
         other,
@@ -112,12 +111,22 @@ def impacts(
         v1,
         v2,
         pair.friction,
-        restitution,
-        np.where(restitution == 1, np.int8(-1), pair.loss_code),
+        e,
+        np.where(e == 1, np.int8(-1), pair.loss_code),
         m2,
         bodies.mass_ratio(body, other),
         pair.stiffness_ratio,
+        pair.dundurs,
     )
+
+
+def unit_normal(normal: Array) -> Array:
+    """Normals, divided by their length if it is within 1e-6 of 1.
+
+    Else energy would grow by a share of that error, and a head-on impact would have an incidence.
+    """
+    length = np.sqrt(dot(normal, normal))
+    return normal / np.where(np.abs(length - 1) <= checks.LENGTH_ERROR, length, 1.0)
 
 
 def slides_throughout(impacts: Impacts) -> Booleans:
@@ -151,6 +160,12 @@ def problems(impacts: Impacts) -> dict[int, str]:
     if low.size:
         low = low[~slides_throughout(impacts.take(low))]
     messages = {}  # the last one of several problems counts
+    for i in np.flatnonzero(impacts.loss_code >= len(CODES)).tolist():
+        loss = NAMES[impacts.loss_code[i]]
+        messages[i] = (
+            f"loss = '{loss}': the continuum has no such loss; allowed are "
+            f"{' and '.join(SPHERES)}, or model = 'lumped.{loss}'"
+        )
     for i in np.flatnonzero(~(impacts.v2 > 0)).tolist():
         messages[i] = (
             f"normal velocity of approach = {impacts.v2[i]:g}: the bodies must approach each other"
@@ -191,12 +206,12 @@ def after(impacts: Impacts, change: Array) -> tuple[State, State, Array]:
     return state, other, impulse * m2
 
 
-def energy_lost(impacts: Impacts, change: Array) -> Array:
-    """Kinetic energy lost by both bodies [J]: in the normal element, and tangentially."""
+def energies_lost(impacts: Impacts, change: Array) -> tuple[Array, Array]:
+    """Kinetic energy lost by both bodies [J]: along the normal, and along the surface."""
     e = impacts.restitution
-    normal = (1 - e) * (1 + e) * (impacts.m2 / 2 * impacts.v2**2)
     m1 = impacts.m2 / impacts.mass_ratio
-    return normal - m1 / 2 * change * (2 * impacts.v1 + change)
+    normal = (1 - e) * (1 + e) * (impacts.m2 / 2 * impacts.v2**2)
+    return normal, -m1 / 2 * change * (2 * impacts.v1 + change)
 
 
 def contact_velocity(state: State, body: Body, towards: Array) -> Array:
@@ -221,7 +236,7 @@ def cross(a: Any, b: Any) -> list[Any]:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
-def _restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> Array:
+def restitution(pair: Pair, body: Body, other: Body, m2: Array, v2: Array) -> Array:
     """Restitution: that of the pair, or what its material has at the speed of each impact."""
     e = pair.restitution
     for name, law in RESTITUTION_BY.items():

@@ -6,21 +6,24 @@ below the tolerance. For all others the continuum is solved, elastic for e = 1, 
 of the impact. That takes up to some milliseconds an impact.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import continuum, spheres
+from planarimpact import continuum, models, spheres
 from planarimpact.collision.mechanics import Impacts, slides_throughout
-from planarimpact.common import sliding
-from planarimpact.common.arrays import Array, Integers
-from planarimpact.common.checks import ConvergenceError
-from planarimpact.common.losses import CODES, PLASTIC, SPHERES, Loss
+from planarimpact.common import checks, sliding
+from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.checks import ConvergenceError, InputError
+from planarimpact.common.losses import BY_NAME, CODES, NAMES, PLASTIC, SPHERES, Loss
 from planarimpact.common.results import Rebound, Regime
 
 # Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
 # that is solved has no larger error in v1(0) either, so that friction of any size has an effect.
 TOLERANCE = 5e-3
+# Models of the continuum, by the beginning of their names.
+CONTINUA = "continuum", "spheres"
 # Error by rounding, for a unit of the mass ratio.
 ROUNDING = 1e-12
 
@@ -60,7 +63,10 @@ METHODS = (
     ),
 )
 SLIDING, HEAD_ON = map(METHODS.index, FORMULAS)
-IS_CONTINUUM = np.array([method not in FORMULAS for method in METHODS])
+# From this place on are models that a caller has asked for, at most two.
+ASKED = len(METHODS)
+IS_CONTINUUM = np.array([method not in FORMULAS for method in METHODS] + [False] * 2)
+IS_SOLVED = np.array([method.way == "solved" for method in METHODS])
 
 
 def of_each(impacts: Impacts, tolerance: float) -> tuple[Integers, Array]:
@@ -97,29 +103,133 @@ def table_error(bound: Any, mass_ratio: Any, x: Any) -> Any:
 
 
 class Answers(NamedTuple):
-    """Answers to impacts, arrays of shape (n,), and messages for impacts without an answer."""
+    """Answers to impacts, arrays of shape (n,), and messages for impacts without an answer.
+
+    Refused ones are not allowed, and unsolved ones did not reach their tolerance.
+    """
 
     place: Integers  # of the method, in `METHODS`
     change: Array  # of the velocity of the contact point [m/s]; slip throughout knows it best
     velocity: Array  # of the contact point at separation [m/s]
     peak_friction: Array  # mu times the peak normal force; NaN where it is not asked for
     regime: Integers
-    error: Array  # of the velocity, at most [m/s]
+    error: Array  # of the velocity, at most [m/s]; NaN where a model has no bound
     unsolved: dict[int, str]  # `{index: message}`
+    refused: dict[int, str]
 
 
-def answers(impacts: Impacts, tolerance: float, peaks: bool = False) -> Answers:
-    """Each impact answered by its method, with its peak friction or, in less time, without."""
+def answers(
+    impacts: Impacts, tolerance: float, peaks: bool = False, solve: bool | Booleans = True
+) -> Answers:
+    """Each impact answered by its method, with its peak friction or, in less time, without.
+
+    Where `solve` is False, impacts that need the continuum solved are refused.
+    """
     place, error = of_each(impacts, tolerance)
+    result = _by_formulas(impacts, place, error)
+    needs = np.flatnonzero(IS_SOLVED[place] & ~np.asarray(solve)).tolist()
+    said = "solve = False: {}, so that it must be solved; choose a model, or solve = True"
+    result.refused.update({i: said.format(METHODS[place[i]].why) for i in needs})
+    for number in np.unique(np.delete(place, needs)).tolist():
+        if IS_CONTINUUM[number]:
+            _add_continuum(result, impacts, number, tolerance, peaks)
+    return result
+
+
+def answers_of(model: models.Model, impacts: Impacts, tolerance: float) -> Answers:
+    """Each impact answered by one model; without friction, or head-on, formulas are exact.
+
+    The tolerance is that of a continuum. The loss of the impacts is that of the model, see
+    `lost_by`. One that the model refuses stops all: it is the first of them.
+    """
+    x = impacts.incidence_of(np.arange(impacts.v1.size))
+    place = np.where(x > checks.LARGEST, SLIDING, np.where(x > 0, ASKED, HEAD_ON))
+    result = _by_formulas(impacts, place, np.where(place == ASKED, np.nan, 0.0))
+    rows = np.flatnonzero(place == ASKED)
+    x, groups, settings = x[rows], impacts.groups_of(rows), dict[str, Any]()
+    plastic = impacts.loss_code[rows] == CODES[PLASTIC]
+    if has_micro_slip(model):
+        error = table_error(spheres.error_bound(*groups, plastic), groups[0], x)
+        if model.name.startswith("continuum"):
+            error = settings["tolerance"] = _tolerance(x, tolerance)
+        result.error[rows] = error * impacts.unit[rows]
+
+    def rebound(part: slice | int) -> Rebound:
+        own = {name: values[part] for name, values in settings.items()}
+        return models.rebound(model, x[part], *(group[part] for group in groups), **own)
+
+    (least, most), e = model.restitution, groups[2]
+    beyond = np.flatnonzero((e < least) | (e > most))
+    if beyond.size and least < 1:  # before any work; those for e = 1 say what has a loss
+        allowed = f"allowed are numbers from {least:g} to {most:g}"
+        first, said = beyond[0], f"{model.name}: restitution = {e[beyond[0]]}: {allowed}"
+        result.refused[int(rows[first])] = said
+        return result
+    try:
+        found = rebound(slice(None))
+    except continuum.Unsolved as failed:
+        result.unsolved[int(rows[failed.impacts[0]])] = f"{model.name}: {failed}"
+        return result
+    except (InputError, ConvergenceError) as failed:
+        first, message = first_refused(rebound, rows.size, str(failed))
+        problems = result.refused if isinstance(failed, InputError) else result.unsolved
+        problems[int(rows[first])] = f"{model.name}: {message}"
+        return result
+    slides = found.regime == Regime.SLIP_THROUGHOUT
+    fall, velocity = sliding.change(*groups[::2]), found.velocity * impacts.unit[rows]
+    result.change[rows] = np.where(slides, -fall * impacts.unit[rows], velocity - impacts.v1[rows])
+    result.velocity[rows] = impacts.v1[rows] + result.change[rows]
+    result.peak_friction[rows], result.regime[rows] = found.peak_friction, found.regime
+    return result
+
+
+def has_micro_slip(model: models.Model) -> bool:
+    """Whether a model is the continuum, solved or from its table."""
+    return models.MODELS.get(model.name) is model and model.name.startswith(CONTINUA)
+
+
+def lost_by(model: models.Model, loss_code: Integers) -> tuple[Integers, dict[int, str]]:
+    """Codes of the losses of impacts by a model, and `{index: message}` where a pair contradicts.
+
+    A pair's own loss counts where the model has none, or any. The losses of spheres are those of
+    materials, so that one of them does not stand for another; an element of the paper may.
+    """
+    if model.loss not in BY_NAME:
+        return loss_code, {}
+    code = [*BY_NAME].index(model.loss)
+    wrong = np.flatnonzero((loss_code >= 0) & (loss_code != code) & (model.loss in SPHERES))
+    said = "loss = '{}': the loss of {} is {}; choose a model with the loss of the pair"
+    messages = {i: said.format(NAMES[loss_code[i]], model.name, model.loss) for i in wrong.tolist()}
+    return np.where(loss_code >= 0, np.int8(code), loss_code), messages
+
+
+def first_refused(
+    rebound: Callable[[slice | int], Rebound], count: int, message: str
+) -> tuple[int, str]:
+    """Index of the first of several impacts that a model refuses, and what it says of it alone."""
+    low, high = 0, count
+    while high - low > 1:
+        middle = (low + high) // 2
+        try:
+            rebound(slice(low, middle))
+            low = middle
+        except (InputError, ConvergenceError):
+            high = middle
+    try:
+        rebound(low)
+    except (InputError, ConvergenceError) as error:
+        message = str(error)
+    return low, message
+
+
+def _by_formulas(impacts: Impacts, place: Integers, error: Array) -> Answers:
+    """Answers with those of formulas in them."""
     slides = place == SLIDING
     fall = sliding.change(impacts.mass_ratio, impacts.restitution) * impacts.unit
     change = np.where(slides, -fall, 0.0)
-    velocity = impacts.v1 + change
     regime = np.where(slides, Regime.SLIP_THROUGHOUT, Regime.STICK).astype(np.uint8)
-    result = Answers(place, change, velocity, slides.astype(float), regime, error, {})
-    for number in np.unique(place[IS_CONTINUUM[place]]).tolist():
-        _add_continuum(result, impacts, number, tolerance, peaks)
-    return result
+    velocity = impacts.v1 + change
+    return Answers(place, change, velocity, slides.astype(float), regime, error, {}, {})
 
 
 def _add_continuum(
@@ -127,6 +237,7 @@ def _add_continuum(
 ) -> None:
     """Write the answers of one method into the result."""
     method, rows = METHODS[number], np.flatnonzero(result.place == number)
+    rows = np.setdiff1d(rows, [*result.refused]) if result.refused else rows
     x, groups = impacts.incidence_of(rows), impacts.groups_of(rows)
     if method.way == "solved":
         rebound, with_answer, messages = solved(method.loss, x, groups, _tolerance(x, tolerance))

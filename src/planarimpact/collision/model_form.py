@@ -7,58 +7,38 @@ tolerance makes it smaller, only knowledge of the material does.
 
 import numpy as np
 
-from planarimpact import continuum, spheres
+from planarimpact import continuum
 from planarimpact.collision import methods
 from planarimpact.collision.mechanics import Impacts
-from planarimpact.common import sliding
 from planarimpact.common.arrays import Array, Integers
-from planarimpact.common.losses import CODES, PLASTIC, VISCOUS, Loss
+from planarimpact.common.losses import CODES, PLASTIC, VISCOUS
 
-# Tolerance of the continuum with the other loss, mu v2(0) and v1(0): two digits of the difference
-# suffice.
+# Tolerance of the continuum with the other loss, mu v2(0): two digits of the difference suffice.
 TOLERANCE = 1e-2
 
 
-def model_forms(impacts: Impacts, place: Integers, velocity: Array) -> Array:
-    """How far the velocity of `Answers` would move with the other loss [m/s], NaN if not known."""
-    form, unit = np.zeros(impacts.v1.size), impacts.unit
-    viscous = (place == methods.SLIDING) & (impacts.loss_code == CODES[VISCOUS])
-    form[viscous] = np.nan
-    rows = np.flatnonzero(viscous & (impacts.restitution >= continuum.LEAST_RESTITUTION))
-    difference = _of_sliding(impacts.incidence_of(rows), impacts.groups_of(rows))
-    form[rows] = np.abs(difference) * unit[rows]
-    for loss, other in ((VISCOUS, PLASTIC), (PLASTIC, VISCOUS)):
-        rows = np.flatnonzero(methods.IS_CONTINUUM[place] & (impacts.loss_code == CODES[loss]))
-        moved = _velocity(other, impacts.incidence_of(rows), impacts.groups_of(rows))
-        form[rows] = np.abs(moved * unit[rows] - velocity[rows])
-    return form
+def model_forms(
+    impacts: Impacts, place: Integers, velocity: Array, may_solve: bool = True
+) -> Array:
+    """How far the velocity of `Answers` would move with the other loss [m/s], NaN if not known.
 
-
-def _velocity(loss: Loss, incidence: Array, groups: tuple[Array, ...]) -> Array:
-    """Velocity at separation, mu v2(0), of impacts that stick, NaN where there is no answer."""
-    velocity, covered = np.full(incidence.size, np.nan), spheres.covers(*groups)
-    x, *of_table = (values[covered] for values in (incidence, *groups))
-    velocity[covered] = spheres.rebound(x, *of_table, loss=loss.name, forces=False).velocity
-    rows = np.flatnonzero(~covered)
-    if rows.size:
-        x, groups = incidence[rows], tuple(group[rows] for group in groups)
-        rebound, solved, _ = methods.solved(loss, x, groups, TOLERANCE * np.minimum(x, 1.0))
-        velocity[rows[solved]] = rebound.velocity
-    return velocity
-
-
-def _of_sliding(incidence: Array, groups: tuple[Array, ...]) -> Array:
-    """Velocity with plastic loss, less that of viscous impacts that slide throughout, mu v2(0).
-
-    With plastic loss such an impact may stick for a while. There may be very many of them, so that
-    the difference is NaN where the table of spheres has no answer.
+    There may be very many impacts that slide throughout, and of which metal would stick for a
+    while: their difference is NaN where the table of spheres has no answer. So is that of others
+    if the continuum may not be solved.
     """
-    sticks = incidence < continuum.slip_throughout_limit(*groups, loss=PLASTIC.name)
-    rows = np.flatnonzero(sticks & spheres.covers(*groups))
-    x, (mass_ratio, stiffness_ratio, restitution) = incidence[rows], (g[rows] for g in groups)
-    plastic = spheres.rebound(
-        x, mass_ratio, stiffness_ratio, restitution, loss=PLASTIC.name
-    ).velocity
-    difference = np.where(sticks, np.nan, 0.0)
-    difference[rows] = plastic - sliding.velocity(x, mass_ratio, restitution)
-    return difference
+    form = np.zeros(impacts.v1.size)
+    lossy = (impacts.loss_code >= 0) & (place != methods.HEAD_ON)
+    form[lossy] = np.nan
+    known = lossy & (place < methods.ASKED) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
+    # What yields slides throughout only where viscous spheres do.
+    form[(place == methods.SLIDING) & (impacts.loss_code == CODES[PLASTIC])] = 0.0
+    known &= np.isnan(form)
+    rows = np.flatnonzero(known)
+    if rows.size:
+        others = impacts.take(rows)
+        code = CODES[VISCOUS] + CODES[PLASTIC] - others.loss_code
+        solve = may_solve & (place[rows] != methods.SLIDING)
+        found = methods.answers(others._replace(loss_code=code), TOLERANCE, solve=solve)
+        form[rows] = np.abs(found.velocity - velocity[rows])
+        form[rows[[*found.refused, *found.unsolved]]] = np.nan
+    return form

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -12,13 +15,22 @@ from planarimpact.bodies import Material
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Integers
 from planarimpact.common.checks import InputError
-from planarimpact.common.losses import CODES, NAMES, SPHERES
+from planarimpact.common.losses import (
+    BY_NAME,
+    CODES,
+    NAMES,
+    SPHERES,
+    LumpedLoss,
+    SpheresLosses,
+)
 
 # What gives the restitution, and the loss that comes with it: the restitution itself, or a property
 # of the materials that gives it at the speed of each impact.
 RESTITUTION_FROM = {"restitution": ""} | {loss.material: name for name, loss in SPHERES.items()}
 _FIELDS = ("friction", "stiffness_ratio", "effective_modulus", *RESTITUTION_FROM)
-_ARRAYS = (*_FIELDS, "loss_code")
+_ARRAYS = (*_FIELDS, "dundurs", "loss_code")
+_OF_MATERIALS = "stiffness_ratio", "effective_modulus", "dundurs"
+_NAN = np.array(np.nan)
 
 
 class Pair:
@@ -39,7 +51,8 @@ class Pair:
         [Pa], of materials that yield, see `bodies.plastic_restitution`: e follows from the speed.
     loss : str or array_like of str, optional
         What takes the energy where `restitution` is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield). An empty text, None or NaN in an array means none.
+        "plastic" (metals that yield); or "hysteretic" (the paper's) or "unloading-stiffness", for
+        `collide` with such a model. An empty text, None or NaN in an array means none.
     stiffness_ratio : array_like, optional
         zeta^2, normal over tangential stiffness, where there are no materials.
     effective_modulus : array_like, optional
@@ -49,6 +62,8 @@ class Pair:
     ----------
     friction, stiffness_ratio, effective_modulus, restitution, relaxation_time, yield_pressure
         As above, arrays of one shape; NaN where the pair does not have it.
+    dundurs : ndarray
+        Size of Dundurs' constant, see `bodies.dundurs`; NaN where there are no materials.
     loss, loss_code : ndarray of str, ndarray of int
         Name of the loss, and its place in `planarimpact.common.losses.NAMES`; "none" and -1 where
         none is said.
@@ -88,6 +103,7 @@ class Pair:
     restitution: Array
     relaxation_time: Array
     yield_pressure: Array
+    dundurs: Array
     loss_code: Integers
     floats: tuple[float, ...]  # the fields but `loss_code`, if they are plain numbers of one pair
     __slots__ = (*_ARRAYS, "floats")
@@ -99,34 +115,36 @@ class Pair:
         restitution: ArrayLike | None = None,
         relaxation_time: ArrayLike | None = None,
         yield_pressure: ArrayLike | None = None,
-        loss: str | ArrayLike | None = None,
+        loss: SpheresLosses | LumpedLoss | None = None,
         stiffness_ratio: ArrayLike | None = None,
         effective_modulus: ArrayLike | None = None,
     ) -> None:
-        laws = {
-            "restitution": checks.restitution(_given(restitution), missing=True),
-            "relaxation_time": checks.not_negative(
-                "relaxation_time", _given(relaxation_time), missing=True
-            ),
-            "yield_pressure": checks.positive(
-                "yield_pressure", _given(yield_pressure), missing=True
-            ),
-        }
-        stiffness = _stiffness(materials, stiffness_ratio, effective_modulus)
-        mu = checks.not_negative("friction", friction)
-        named: dict[str, Any] = {"friction": mu, **stiffness, **laws}
-        named["loss_code"] = checks.losses(loss, SPHERES)
-        arrays: dict[str, Any] = dict(zip(named, checks.broadcast(**named), strict=True))
-        _refuse_other_laws(arrays)
-        arrays["loss_code"] = _of_law(arrays)
-        by_law = np.isnan(arrays["restitution"])
-        if (by_law & np.isnan(arrays["effective_modulus"])).any():
-            raise InputError(
-                "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
-                "the materials"
-            )
-        # Copies: what the caller does with its arrays later does not change the pair.
-        _fill(self, *(np.array(arrays[name]) for name in _ARRAYS))
+        laws = {"relaxation_time": relaxation_time, "yield_pressure": yield_pressure}
+        fields = _checked(friction=friction, restitution=restitution, loss=loss, **laws)
+        _fill(self, *_together(fields | _stiffness(materials, stiffness_ratio, effective_modulus)))
+
+    def replace(self, **changes: Any) -> Pair:
+        """A pair with other values of these arguments of `Pair`; all else stays, unchecked.
+
+        There are no materials here, and None stands for no value. A new value may be an array: it
+        broadcasts with the fields that stay. It is refused where `Pair` refuses it.
+
+        Examples
+        --------
+        >>> steel = Pair(stiffness_ratio=1.2, friction=0.1, restitution=0.8, loss="plastic")
+        >>> steel.replace(friction=0.3, restitution=0.5)
+        <Pair: friction = 0.3, stiffness_ratio = 1.2, restitution = 0.5, plastic>
+        """
+        for name in changes:
+            checks.word("argument", name, _CHECKS)
+        fields = {name: getattr(self, name) for name in _ARRAYS}
+        if "stiffness_ratio" in changes:  # of materials that are not known
+            fields["dundurs"] = _NAN
+        if not changes.keys().isdisjoint(RESTITUTION_FROM) and "loss" not in changes:
+            # The loss of a law goes with it.
+            by_law = np.isnan(self.restitution)
+            fields["loss_code"] = np.where(by_law, np.int8(-1), self.loss_code)
+        return _made(*_together(fields | _checked(**changes)))
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a Pair cannot be changed: make a new one with another {name}")
@@ -181,14 +199,32 @@ def _fill(pair: Pair, *fields: Array) -> None:
     object.__setattr__(pair, "floats", numbers if plain else ())
 
 
-def _given(value: ArrayLike | None) -> ArrayLike:
-    """Numbers of one law, NaN where a pair does not have it."""
-    return np.nan if value is None else value
+# The checks of arguments; those of `_FIELDS[2:]` may be None.
+_CHECKS: dict[str, Callable[[Any], Any]] = {
+    "friction": partial(checks.not_negative, "friction"),
+    "stiffness_ratio": checks.stiffness_ratio,
+    "effective_modulus": partial(checks.positive, "effective_modulus"),
+    "restitution": partial(checks.restitution, missing=True),
+    "relaxation_time": partial(checks.not_negative, "relaxation_time", missing=True),
+    "yield_pressure": partial(checks.positive, "yield_pressure", missing=True),
+    "loss": partial(checks.losses, allowed=BY_NAME),
+}
+
+
+def _checked(**arguments: Any) -> dict[str, Any]:
+    """Checked fields by their arguments, NaN where a pair does not have one."""
+    fields = {}
+    for name, value in arguments.items():
+        missing = value is None and name in _FIELDS[2:]
+        fields[name] = _NAN if missing else _CHECKS[name](value)
+    if "loss" in fields:
+        fields["loss_code"] = fields.pop("loss")
+    return fields
 
 
 def _stiffness(
     materials: tuple[Material, ...], ratio: ArrayLike | None, modulus: ArrayLike | None
-) -> dict[str, Array]:
+) -> dict[str, Any]:
     """Stiffness ratio and effective modulus, from the materials or as they are given."""
     if bool(materials) == (ratio is not None):
         raise InputError("materials, stiffness_ratio: needed is one of the two")
@@ -197,15 +233,39 @@ def _stiffness(
             raise InputError("effective_modulus: it does not apply, the materials have it")
         if len(materials) > 2:
             raise InputError(f"{len(materials)} materials: allowed are one or two")
-        return {
-            "stiffness_ratio": bodies.stiffness_ratio(*materials),
-            "effective_modulus": bodies.effective_modulus(*materials),
-        }
-    known = np.nan if modulus is None else checks.positive("effective_modulus", modulus)
-    return {
-        "stiffness_ratio": checks.stiffness_ratio(ratio if ratio is not None else np.nan),
-        "effective_modulus": np.asarray(known),
-    }
+        try:
+            values = _of_materials(*materials)
+        except TypeError:  # arrays
+            values = _of_materials.__wrapped__(*materials)
+        return dict(zip(_OF_MATERIALS, values, strict=True))
+    return {"dundurs": _NAN} | _checked(stiffness_ratio=ratio, effective_modulus=modulus)
+
+
+@lru_cache(maxsize=4096, typed=True)
+def _of_materials(*materials: Material) -> tuple[Array, ...]:
+    """The fields that materials give, in their order."""
+    dundurs = np.abs(bodies.dundurs(*materials))
+    return bodies.stiffness_ratio(*materials), bodies.effective_modulus(*materials), dundurs
+
+
+def _together(fields: dict[str, Any]) -> list[Array]:
+    """Copies of checked fields in the order of `_ARRAYS`; refuse what may not be together.
+
+    What the caller does with its arrays later does not change the pair.
+    """
+    arrays: dict[str, Any] = dict(zip(fields, checks.broadcast(**fields), strict=True))
+    e, *laws = (arrays[name] for name in RESTITUTION_FROM)
+    # A single pair with a restitution, and a loss where it needs one, takes most time below.
+    sound = not e.ndim and (e == 1 or (e < 1 and arrays["loss_code"] >= 0))
+    if not (sound and all(map(math.isnan, laws))):
+        _refuse_other_laws(arrays)
+        arrays["loss_code"] = _of_law(arrays)
+        if (np.isnan(e) & np.isnan(arrays["effective_modulus"])).any():
+            raise InputError(
+                "effective_modulus: missing; a relaxation time or a yield pressure needs it, or "
+                "the materials"
+            )
+    return [np.array(arrays[name]) for name in _ARRAYS]
 
 
 def _refuse_other_laws(arrays: dict[str, Array]) -> None:

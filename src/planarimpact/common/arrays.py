@@ -2,13 +2,18 @@
 
 A function that takes ArrayLike returns an array of the broadcast shape. If all arguments are
 scalars, it returns a scalar of NumPy, which has the methods and operators of an array. For a type
-checker both are arrays.
+checker both are arrays, but for those that `results.of_groups` decorates.
 """
 
-from typing import TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:  # without the texts of the public one
+    from numpy._typing import _ArrayLikeFloat_co as ArrayLike
+else:
+    from numpy.typing import ArrayLike
 
 __all__ = ["Array", "ArrayLike", "Booleans", "Integers", "Number", "Numbers", "SMALLEST"]
 

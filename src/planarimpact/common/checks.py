@@ -120,8 +120,10 @@ def checked(
     """
     if open_low and low == 0:
         low, open_low = LEAST, False
-    if type(value) in _PLAIN and not open_low and low <= value <= high < math.inf:  # type: ignore[operator]
-        return np.array(value, np.float64)  # in a tenth of the time of all that follows
+    if type(value) in _PLAIN and not open_low and high < math.inf:
+        number: Any = value
+        if low <= number <= high or (missing and number != number):
+            return np.array(value, np.float64)  # in a tenth of the time of all that follows
     parts = () if type(value) in _PLAIN else [*_parts(value)]
     if any(map(has_unit, parts)):
         raise InputError(f"{name} = {brief(value)} {UNIT}")
@@ -316,6 +318,8 @@ are tangential frequencies omega/Omega up to 10000 (for no tangential compliance
 def restitution(value: ArrayLike, missing: bool = False) -> Array:
     """Check the energetic coefficient of restitution, 0 <= e <= 1; NaN passes with `missing`."""
     numbers = checked("restitution", value, "numbers from 0 to 1", 0, 1, missing=missing)
+    if not numbers.ndim and numbers >= LEAST_RATIO:
+        return numbers
     tiny = (numbers > 0) & (numbers < LEAST_RATIO)
     if tiny.any():
         in_range("restitution", np.where(tiny, numbers, 1.0), LEAST_RATIO, 1)
@@ -351,6 +355,8 @@ def losses(value: Any, allowed: Collection[str]) -> Integers:
     >>> losses(["plastic", None, "viscous"], ("viscous", "plastic")).tolist()
     [1, -1, 0]
     """
+    if value is None or (type(value) is str and value in allowed):
+        return np.array([*allowed].index(value) if value else -1, np.int8)  # in little time
     if any(map(_is_masked, _parts(value))):
         loss(value, allowed)
     words = value
@@ -498,6 +504,8 @@ def broadcast(**arguments: Array) -> tuple[Array, ...]:
     >>> [a.shape for a in broadcast(incidence=np.zeros(3), restitution=np.ones(()))]
     [(3,), (3,)]
     """
+    if not any([value.shape for value in arguments.values()]):
+        return tuple(arguments.values())  # in a tenth of the time
     try:
         return np.broadcast_arrays(*arguments.values())
     except ValueError:

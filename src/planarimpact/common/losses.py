@@ -1,18 +1,24 @@
 """What takes the normal energy of a contact where e < 1: one table for all models.
 
-Code passes a `Loss`. An array of losses has their `CODES`, and -1 where there is none: losses of
-spheres alone come in arrays. Names are for users and files. At e = 1 all losses of a model are the
-same.
+Code passes a `Loss`. An array of losses has the places of their `NAMES`, and -1 where there is
+none. Names are for users and files. At e = 1 all losses of a model are the same.
 
 A new loss of the lumped model is a new row. One of the continuum needs a motion besides, see
 `planarimpact.continuum.inelastic`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
+
+# The names in `LUMPED`, `NONCOLLINEAR` and `SPHERES`, for type checkers.
+LumpedLoss: TypeAlias = Literal["hysteretic", "unloading-stiffness", "viscous"]
+NoncollinearLoss: TypeAlias = Literal["hysteretic", "unloading-stiffness"]
+SpheresLoss: TypeAlias = Literal["viscous", "plastic"]
+SpheresLosses: TypeAlias = SpheresLoss | Sequence[SpheresLoss | Literal[""] | None] | NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +32,10 @@ class Loss:
     valid, source : str
         What it describes, and the publication that it is taken from.
     least_restitution : float
-        It holds from here on.
+        The solver takes it from here on.
+    known_from, known_to_friction : float
+        Smallest restitution and largest friction for which the evidence is that the law holds; see
+        `cautions`.
     dashpots : bool
         Whether viscous elements take the energy, in both directions alike. Else a lumped one is the
         paper's element, of which only the normal direction loses energy.
@@ -42,10 +51,12 @@ class Loss:
     """
 
     model: str
-    name: str
+    name: Any  # one of the names above
     valid: str
     source: str
     least_restitution: float = 0.0
+    known_from: float = 0.0
+    known_to_friction: float = np.inf
     dashpots: bool = False
     stiffness_ratio: Callable[[Any, Any], Any] = lambda zeta2, e: zeta2
     material: str = ""
@@ -57,6 +68,7 @@ LOSSES = (
         "hysteretic",
         "the paper's model: as lumped, the normal spring alone loses energy; to rounding",
         "Stronge 1994",
+        known_from=1.0,  # below, measurements are divided, and finite elements differ
     ),
     # The elastic stiffness of the hysteretic element is the one of unloading, kappa/e^2. In the
     # ratio it makes the tangential one kappa/(e^2 zeta^2). Rounded as in
@@ -67,6 +79,7 @@ LOSSES = (
         "as lumped, with e^2 zeta^2 for zeta^2: both stiffnesses elastic; solved to rounding",
         "Stronge 1994, with the elastic stiffness of unloading in the ratio",
         least_restitution=1e-3,  # below it the tangential element is as good as rigid
+        known_from=1.0,
         stiffness_ratio=lambda zeta2, e: e * (e * zeta2),
     ),
     Loss(
@@ -94,6 +107,8 @@ LOSSES = (
         "elastic-plastic spheres with micro-slip, to a tolerance; contained yielding",
         "C. Thornton, J. Appl. Mech. 64 (1997) 383-386",
         least_restitution=0.1,
+        known_from=0.4,  # as known_to_friction: by data/finite_elements, see `continuum.rebound`
+        known_to_friction=0.2,
         material="yield_pressure",
     ),
 )
@@ -102,6 +117,8 @@ LUMPED = {loss.name: loss for loss in LOSSES if loss.model == "lumped"}
 NONCOLLINEAR = {name: loss for name, loss in LUMPED.items() if not loss.dashpots}
 SPHERES = {loss.name: loss for loss in LOSSES if loss.model == "continuum"}
 VISCOUS, PLASTIC = SPHERES["viscous"], SPHERES["plastic"]
-# What stands for a loss in arrays, and the names by these codes; the last one is that of -1.
+# Names of losses by the codes that stand for them in arrays; those of spheres come first, and the
+# last one is that of -1.
+BY_NAME = SPHERES | {name: loss for name, loss in LUMPED.items() if name not in SPHERES}
+NAMES = np.array([*BY_NAME, "none"])
 CODES = {loss: code for code, loss in enumerate(SPHERES.values())}
-NAMES = np.array([*SPHERES, "none"])

@@ -35,5 +35,6 @@ def record(named_tuple: type[_Record]) -> type[_Record]:
     """
     kept = "__module__", "__qualname__", "__doc__"
     names = {"__slots__": (), **{name: getattr(named_tuple, name) for name in kept}}
+    names["__orig_bases__"] = getattr(named_tuple, "__orig_bases__", ())  # so generic as it is
     made: Any = _Fields(named_tuple.__name__, (named_tuple,), names)
     return made

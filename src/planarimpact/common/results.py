@@ -3,13 +3,29 @@
 from __future__ import annotations
 
 from enum import IntEnum, StrEnum
-from typing import Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Generic, NamedTuple, Self, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common import checks
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
 from planarimpact.common.records import Members, record
+
+if TYPE_CHECKING:  # the oldest Python that we allow knows no defaults of types
+    from collections.abc import Callable
+    from typing import Concatenate, ParamSpec, Protocol
+
+    from typing_extensions import TypeVar
+
+    Values = TypeVar("Values", covariant=True, default=Array)
+    Codes = TypeVar("Codes", covariant=True, default=Integers)
+    Counts = TypeVar("Counts", covariant=True, default=Integers)
+    Settings = ParamSpec("Settings")
+else:
+    from typing import TypeVar
+
+    Values, Codes, Counts = map(TypeVar, ("Values", "Codes", "Counts"))
 
 
 class Regime(IntEnum, metaclass=Members):
@@ -46,8 +62,8 @@ class Regime(IntEnum, metaclass=Members):
         return self.name.lower().replace("_", " - ")
 
     @classmethod
-    def names(cls, codes: Integers) -> NDArray[np.str_]:
-        """Names of an array of codes.
+    def names(cls, codes: int | Integers) -> NDArray[np.str_]:
+        """Names of a code, or of an array of codes.
 
         Examples
         --------
@@ -76,8 +92,10 @@ class Regime(IntEnum, metaclass=Members):
 
 
 @record
-class Rebound(NamedTuple):
+class Rebound(NamedTuple, Generic[Values, Codes, Counts]):
     """The state at separation, one entry an impact; scalars where all arguments were scalars.
+
+    For a type checker `Rebound` has arrays, and `Rebound[np.float64, Regime, int]` scalars.
 
     Attributes
     ----------
@@ -98,11 +116,11 @@ class Rebound(NamedTuple):
         the model does not count this.
     """
 
-    velocity: Array
-    peak_friction: Array
-    dissipation: Array
-    regime: Any  # an array of codes, or one Regime
-    reversals: Integers | None = None
+    velocity: Values
+    peak_friction: Values
+    dissipation: Values
+    regime: Codes
+    reversals: Counts | None = None
 
     @classmethod
     def of(
@@ -142,6 +160,40 @@ class Rebound(NamedTuple):
             return cls._make([*numbers, Regime(int(code)), count])
         counts = None if reversals is None else reversals.reshape(incidence.shape)
         return cls._make([*(field.reshape(incidence.shape) for field in fields), counts])
+
+
+if TYPE_CHECKING:
+
+    class OfGroups(Protocol[Settings]):
+        """The two signatures of a `rebound` of the four groups: scalars, and arrays."""
+
+        @overload
+        def __call__(  # type: ignore[overload-overlap]  # as ArrayLike has floats, too
+            self,
+            incidence: float,
+            mass_ratio: float = ...,
+            stiffness_ratio: float = ...,
+            restitution: float = ...,
+            *other: Settings.args,
+            **settings: Settings.kwargs,
+        ) -> Rebound[np.float64, Regime, int]: ...
+        @overload
+        def __call__(
+            self,
+            incidence: ArrayLike,
+            mass_ratio: ArrayLike = ...,
+            stiffness_ratio: ArrayLike = ...,
+            restitution: ArrayLike = ...,
+            *other: Settings.args,
+            **settings: Settings.kwargs,
+        ) -> Rebound: ...
+
+    def of_groups(
+        solve: Callable[Concatenate[ArrayLike, ArrayLike, ArrayLike, ArrayLike, Settings], Rebound],
+    ) -> OfGroups[Settings]:
+        """Decorator of a `rebound` of the four groups: `checks.default_errors`."""
+else:
+    of_groups = checks.default_errors
 
 
 class EventKind(StrEnum, metaclass=Members):

@@ -6,6 +6,7 @@ returns, so it is fast. Where no bracket is known, `phases` has a search of its 
 """
 
 from collections.abc import Callable
+from math import inf, sqrt
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -116,6 +117,51 @@ def crossing(
                 before, value_before = before[open_], value_before[open_]
         turn += 1
     return place
+
+
+def crossing_of_one(
+    function: Callable[[float], tuple[float, ...]],
+    low: float,
+    high: float,
+    *,
+    start: float,
+    unguarded: int = 0,
+    resolution: float = ROUNDING,
+) -> float:
+    """As `crossing` of one bracket by a function with derivatives: floats, with the same bits.
+
+    Examples
+    --------
+    >>> round(crossing_of_one(lambda x: (2.0 - x * x, -2 * x), 0.0, 5.0, start=5.0), 9)
+    1.414213562
+    """
+    place, width = start, max(high - low, 0.0)
+    least = max(resolution * width, SMALLEST)
+    for turn in range(-unguarded, MOST_TURNS):
+        value, slope, *bends = function(place)
+        size, above, below = abs(place), -value, slope
+        if bends:
+            root = sqrt(max(slope * slope - 2 * value * bends[0], 0.0))
+            above, below = 2 * value, root - slope
+        step = above / below if below else above * inf
+        last = abs(step) <= LAST_STEP[1 + len(bends)] * min(width, size)
+        last = last and all(abs(bend * step) <= LAST_BEND * abs(slope) for bend in bends)
+        if turn < 0:
+            place = min(high, max(low, place + step))  # no number becomes `low`
+            if turn == -1 and last and slope < 0:
+                return place
+            continue
+        if value > 0 or (turn == 0 and place <= low):
+            low = place
+        else:
+            high = place
+        hidden, place = max(least, ROUNDING * size), place + step
+        inside = low <= place <= high and not (turn >= FREE_TURNS and turn % 2)
+        if not inside:
+            place = (low + high) / 2
+        if (inside and (last or abs(step) <= hidden)) or not high - low > hidden:
+            return place
+    raise ConvergenceError(f"1 events: not found in {MOST_TURNS} turns")
 
 
 def _unguarded(

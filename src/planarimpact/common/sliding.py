@@ -91,8 +91,8 @@ def restick_coefficient(beta: Array, zeta2: Array, e: Numbers) -> Array:
     >>> [float(restick_coefficient(3.5, zeta2, 0.5)) for zeta2 in (0.75, 1.21)]
     [0.25, 0.0]
     """
-    excess = np.maximum(e * (e * beta) - zeta2, 0.0)
-    return excess / np.where(np.greater(e, 0), e, 1.0)  # for e = 0 the excess is 0
+    excess = e * (e * beta) - zeta2
+    return 0.5 * (excess + abs(excess)) / (e + (e == 0))  # for e = 0 the excess is 0
 
 
 def limit(beta: Array, zeta2: Array, e: Numbers) -> Array:

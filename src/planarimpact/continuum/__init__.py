@@ -18,9 +18,9 @@ import numpy as np
 
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import SMALLEST, Array, ArrayLike
-from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS
+from planarimpact.common.losses import PLASTIC, SPHERES, VISCOUS, SpheresLoss
 from planarimpact.common.records import record
-from planarimpact.common.results import Rebound
+from planarimpact.common.results import Rebound, of_groups
 from planarimpact.continuum import elastic, inelastic, refinement
 from planarimpact.continuum.inelastic.motion import NormalMotion
 from planarimpact.continuum.refinement import Unsolved as Unsolved
@@ -63,14 +63,14 @@ class ContinuumHistory(NamedTuple):
     stick_radius: Array
 
 
-@checks.default_errors
+@of_groups
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str | None = None,
+    loss: SpheresLoss | None = None,
     tolerance: ArrayLike | None = None,
 ) -> Rebound:
     """State at separation; the groups broadcast.
@@ -192,7 +192,7 @@ def slip_throughout_limit(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str | None = None,
+    loss: SpheresLoss | None = None,
 ) -> Array:
     """Incidence from which the contact slides throughout.
 
@@ -240,7 +240,7 @@ def history(
     stiffness_ratio: float = 1.21,
     restitution: float = 1.0,
     *,
-    loss: str | None = None,
+    loss: SpheresLoss | None = None,
     tolerance: float = 1e-4,
 ) -> ContinuumHistory:
     """Forces, velocity and radius of stick over one contact.

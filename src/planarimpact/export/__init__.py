@@ -1,9 +1,10 @@
 """Collisions of spheres in other languages: a header of C99, or a module of JavaScript.
 
-The file needs no other file. Its head says what it computes, in which units, to which error. Both
-languages evaluate as `planarimpact.spheres` does: the same operations in the same order.
-Restitution by speed is written with roots alone, as the last digit of other powers differs between
-languages. Numbers are stored as in the shipped table: whole numbers, each times a power of 1/2.
+The file needs no other file; for TypeScript, a second one has the types of the module. Its head
+says what it computes, in which units, to which error. Both languages evaluate as
+`planarimpact.spheres` does: the same operations in the same order. Restitution by speed is written
+with roots alone, as the last digit of other powers differs between languages. Numbers are stored as
+in the shipped table: whole numbers, each times a power of 1/2.
 
 `templates` has the code of each language, and spheres.txt the words that both have. What stands
 between two marks, such as `<public>` and `</public>`, is written once for each row of the block of
@@ -15,6 +16,7 @@ import re
 import string
 import textwrap
 from collections.abc import Mapping
+from contextlib import ExitStack
 from importlib import resources
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -68,7 +70,8 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
     path : str or Path
         "c": NAME.h, with the functions `NAME_collide`, `NAME_bounce`, `NAME_rebound` and more;
         NAME has letters from A to Z, digits and underscores, and begins with a letter. "js":
-        NAME.mjs or NAME.js, with `collide` and so on. A file that is there is replaced.
+        NAME.mjs or NAME.js, with `collide` and so on, and beside it NAME.d.mts or NAME.d.ts, its
+        types for TypeScript. A file that is there is replaced.
     language : str
         A key of `LANGUAGES`: "c", also for C++, or "js".
     tolerance : float
@@ -99,9 +102,14 @@ def write_spheres(path: str | Path, language: str, tolerance: float = min(TABLES
     allowed = " or ".join(f"{error:g}" for error in TABLES)
     if checks.number("tolerance", tolerance, allowed) not in TABLES:
         raise InputError(f"tolerance = {checks.brief(tolerance)}: allowed is {allowed}")
-    code = _code(TABLES[tolerance], file, language)
-    with files.written(path) as partial:
-        partial.write_text(code, encoding="utf-8")
+    by_template = {f"spheres{LANGUAGES[language][0]}": file}
+    if language == "js":
+        types = file.with_suffix(".d" + file.suffix.lower().replace("j", "t"))
+        by_template["spheres.d.mts"] = types
+    texts = _code(TABLES[tolerance], by_template, language)
+    with ExitStack() as stack:  # all are whole before one has its name
+        for path, text in zip(by_template.values(), texts, strict=True):
+            stack.enter_context(files.written(path)).write_text(text, encoding="utf-8")
 
 
 def _refuse_name(file: Path, language: str) -> None:
@@ -117,11 +125,11 @@ def _refuse_name(file: Path, language: str) -> None:
         )
 
 
-def _code(table_name: str, file: Path, language: str) -> str:
-    """The text of a file: its template, with the names and blocks of this file."""
-    template = f"spheres{LANGUAGES[language][0]}"
-    prefix = f"{file.stem}_" if language == "c" else ""
-    names = {template: file.name, "spheres_": prefix, "SPHERES_": prefix.upper()}
+def _code(table_name: str, by_template: Mapping[str, Path], language: str) -> list[str]:
+    """The texts of files: their templates, with the names and blocks of these files."""
+    names = {template: file.name for template, file in by_template.items()}
+    prefix = f"{next(iter(by_template.values())).stem}_" if language == "c" else ""
+    names |= {"spheres_": prefix, "SPHERES_": prefix.upper()}
 
     def read(text_file: str) -> str:
         """A file of the templates, with the names of this file."""
@@ -143,7 +151,7 @@ def _code(table_name: str, file: Path, language: str) -> str:
         block = string.Template(match[2])
         return "".join(block.substitute(row) for row in blocks[match[1]])
 
-    return BLOCK.sub(written, read(template))
+    return [BLOCK.sub(written, read(template)) for template in by_template]
 
 
 def _comment(paragraph: str) -> str:
@@ -171,22 +179,27 @@ def _public(bounds: Mapping[str, float]) -> dict[str, float]:
         # 0 is none of them, so that a loss which nobody states is not taken for one.
         **{loss.upper(): code for code, loss in enumerate(spheres.LOSSES, 1)},
         "INCIDENCE_MAX": checks.LARGEST,
-        "RESTITUTION_MIN": spheres.LEAST_RESTITUTION,
+        **_by_loss("RESTITUTION_MIN", spheres.LEAST_RESTITUTION),
         "STIFFNESS_MAX": spheres.LARGEST_STIFFNESS,
         "RATIO_MIN": spheres.LEAST_RATIO,
         "RATIO_MAX": spheres.LARGEST_RATIO,
-        **{f"ERROR_{loss.upper()}": bound for loss, bound in bounds.items()},
+        **_by_loss("ERROR", bounds),
+        "STIFFNESS_STATED": spheres.STATED_STIFFNESS,
         **{regime.name: regime.value for regime in Regime},
     }
+
+
+def _by_loss(name: str, values: Mapping[str, float]) -> dict[str, float]:
+    """A constant for each loss."""
+    return {f"{name}_{loss.upper()}": value for loss, value in values.items()}
 
 
 def _private(table: Table) -> dict[str, float]:
     """Constants that the functions use."""
     return {
-        "B_LEAST": tables.B_LEAST,
-        "B_SPAN": tables.B_MOST - tables.B_LEAST,
-        "E_LEAST": tables.E_LEAST,
-        "E_SPAN": 1 - tables.E_LEAST,
+        **_by_loss("B_LEAST", {loss: b for loss, (b, _, _) in tables.SPANS.items()}),
+        **_by_loss("B_SPAN", {loss: most - b for loss, (b, most, _) in tables.SPANS.items()}),
+        **_by_loss("E_LEAST", {loss: e for loss, (_, _, e) in tables.SPANS.items()}),
         "UNIT": 2.0**-table.exponent,
         "INCIDENCE_LEAST": checks.LEAST_INCIDENCE,
         "MASS_RATIO_MOST": checks.LARGEST,

@@ -20,6 +20,7 @@ import numpy as np
 from planarimpact import continuum, spheres
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.losses import SpheresLoss
 from planarimpact.fit.codes import CODES, Code, Error, Fit, lines
 from planarimpact.fit.overlaps import overlap
 from planarimpact.models import timestep
@@ -49,7 +50,7 @@ def fit(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str | None = None,
+    loss: SpheresLoss | None = None,
     incidence_max: float | None = None,
 ) -> Fit:
     """The law of a code with the tangential spring and dashpot that come nearest to the continuum.
@@ -142,9 +143,9 @@ def _error(off: Array, x: Array) -> Error:
     return Error(float(rms), float(np.abs(off[row, place])), float(x[place]))
 
 
-def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: str | None) -> Array:
+def _continuum(x: Array, beta: float, zeta2: float, e: float, loss: SpheresLoss | None) -> Array:
     """Velocity of the continuum, from the table of spheres where that has it."""
-    if spheres.covers(beta, zeta2, e):
+    if spheres.covers(beta, zeta2, e, loss=loss):
         return spheres.rebound(x, beta, zeta2, e, loss=loss).velocity
     return continuum.rebound(x, beta, zeta2, e, loss=loss, tolerance=TOLERANCE).velocity
 

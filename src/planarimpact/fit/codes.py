@@ -2,8 +2,8 @@
 
 Read in their sources: LAMMPS 22Jul2025, `src/GRANULAR/gran_sub_mod_*.cpp`; MercuryDPM,
 `LinearViscoelasticInteraction.cc`, `SlidingFrictionInteraction.cc`, of 2020; Yade,
-`pkg/dem/ViscoelasticPM.cpp`, of 2021; for their motion see `overlaps`. What LAMMPS answers is in
-`data/lammps`; nothing here runs the other two.
+`pkg/dem/ViscoelasticPM.cpp`, of 2021; for their motion see `overlaps`. What the codes answer is in
+`data/lammps`, `data/yade` and `data/mercurydpm`.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 from planarimpact import bodies
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
+from planarimpact.common.cautions import Caution
 from planarimpact.common.records import record
 from planarimpact.fit import overlaps
 from planarimpact.models import timestep
@@ -39,13 +40,13 @@ at {speed:g} m/s
 the range, at x = {twice:.3g}, {found.beyond:.3f}
 # overlap of the spheres at this speed, over their radius: at most {overlap:.2g}
 #   at mu = {measured:g} and without spin before, it adds to the largest error,
-#   as computed from the sources of the code, and measured only for two spheres in LAMMPS:
+#   as computed from the source of the code; LAMMPS (two spheres), Yade and MercuryDPM agree:
 #     of two spheres at most {costs[0]:.2g} for x up to {up_to[0]:g}, where contacts mostly stick
 #     of two spheres at most {costs[1]:.2g} for x up to {up_to[1]:g}, where they slide; beyond, more
 #     of a sphere at a flat wall {wall} for x up to {up_to[1]:g}
 {jumps}{larger}#   a spin against the motion can more than double it
 # The fit is valid for this restitution and this material.
-"""
+{caution}"""
 JUMPS = """\
 #     of these {0:g}, {1:g} and {2:g} also for the smallest overlap: velocities jump where a step of
 #     the contact changes
@@ -303,7 +304,7 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
     size = overlaps.overlap(material, radius, density, speed)
     mu = checks.number("friction", friction, "finite numbers above 0", 0, open_low=True)
     r, rho, v2, young, nu = (float(np.asarray(n)) for n in (radius, density, speed, *material))
-    sphere = bodies.solid_sphere(r, rho)
+    sphere = bodies.solid_sphere(r, density=rho)
     for name, value, own in (
         ("mass_ratio", found.mass_ratio, bodies.mass_ratio(sphere, sphere)),
         ("stiffness_ratio", found.stiffness_ratio, bodies.stiffness_ratio(material, material)),
@@ -332,6 +333,7 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
     end, known = float(found.incidence[-1]), overlaps.FRICTIONS[-1]
     costs = overlaps.costs(found.law, size, min(mu, known))
     jumps = overlaps.costs(found.law, 0.0, 0.0)
+    caution = Caution.of(found.loss, mu, found.restitution).text
     return {
         "continuum": found.loss if found.restitution < 1 else "elastic",
         "steps": timestep.DASHPOT_STEPS,
@@ -345,6 +347,7 @@ def _numbers(found: Fit, material: bodies.Material, *given: ArrayLike) -> dict[s
         "jumps": JUMPS.format(*jumps) if any(jumps) else "",
         "measured": min(mu, known),
         "larger": LARGER if mu > known else "",
+        "caution": f"# caution: {caution}\n" if caution else "",
         "friction": mu,
         "density": rho,
         "speed": v2,

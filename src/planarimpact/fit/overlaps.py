@@ -15,9 +15,10 @@ from planarimpact import bodies
 from planarimpact.common import checks
 from planarimpact.common.arrays import ArrayLike
 
-# What was measured in LAMMPS, see `data/lammps/overlap.csv`, and computed for all codes, see
-# `tests/unit/test_fit.py`: largest approaches over the radius of a sphere, and frictions. At the
-# largest one the radius of contact is 0.22 of that of a sphere; Hertz' law takes it to be small.
+# What was measured, see overlap.csv in `data/lammps`, `data/yade` and `data/mercurydpm`, and
+# computed for all codes, see `tests/unit/test_fit.py`: largest approaches over the radius of a
+# sphere, and frictions. At the largest one the radius of contact is 0.22 of that of a sphere;
+# Hertz' law takes it to be small.
 OVERLAPS = (0.0001, 0.001, 0.004, 0.01, 0.02, 0.043, 0.1)
 FRICTIONS = (0.1, 0.3, 0.5, 1.0)
 # Contacts mostly stick up to the first incidence, and then slide up to the second.
@@ -84,7 +85,7 @@ def overlap(
         checks.number(name, value, "numbers from 1e-30 to 1e30", 1e-30, 1e30)
         for name, value in given.items()
     )
-    sphere = bodies.solid_sphere(r, rho)
+    sphere = bodies.solid_sphere(r, density=rho)
     both = bodies.contact(sphere, material, sphere, material)
     # Energy: (2/5) F d is m2 v^2/2.
     at_one = 1.25 * float(both.mass / bodies.hertz_peak_force(*both, speed=1.0)) / r

@@ -22,27 +22,29 @@ differ from it, and to a measured rubber sphere it is the nearest. At e = 0.8 it
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike
-from planarimpact.common.losses import LUMPED
-from planarimpact.common.results import History, Rebound
-from planarimpact.lumped import by_loss
+from planarimpact.common.losses import LUMPED, LumpedLoss
+from planarimpact.common.results import History, Rebound, of_groups
+from planarimpact.lumped import by_loss, one_impact
 from planarimpact.lumped.stick_slip import Impacts
 
 # Names of the losses that this model has.
 LOSSES = tuple(LUMPED)
 
 
-@checks.default_errors
+@of_groups
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str = "hysteretic",
+    loss: LumpedLoss = "hysteretic",
 ) -> Rebound:
     """State at separation; all arguments broadcast.
 
@@ -109,6 +111,13 @@ def rebound(
     """
     chosen = LUMPED[checks.loss(loss, LUMPED)]
     x, *groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
+    if not x.ndim:
+        signed, beta, zeta2, e = map(float, (x, *groups))
+        found = one_impact.rebound(chosen, abs(signed), beta, zeta2, e)
+        if found:
+            velocity, *others, regime = found
+            numbers = map(np.float64, (math.copysign(1.0, signed) * velocity, *others))
+            return Rebound._make([*numbers, regime, None])
     return Rebound.shaped(x, *by_loss.solve(chosen, _flat(x, *groups)))
 
 
@@ -118,7 +127,7 @@ def slip_throughout_limit(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str = "hysteretic",
+    loss: LumpedLoss = "hysteretic",
 ) -> Array:
     """Smallest incidence that slides through the whole contact; all arguments broadcast.
 
@@ -157,7 +166,7 @@ def history(
     restitution: float = 1.0,
     samples: int = 400,
     *,
-    loss: str = "hysteretic",
+    loss: LumpedLoss = "hysteretic",
 ) -> History:
     """Forces and velocity over one contact (Figs 3 and 4).
 
@@ -195,7 +204,7 @@ def friction_work(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str = "hysteretic",
+    loss: LumpedLoss = "hysteretic",
 ) -> Array:
     """Work of friction, integrated over the phases of slip: |F1| times the slip velocity.
 

@@ -25,15 +25,10 @@ def slides_from(loss: Loss, beta: Array, zeta2: Array, e: Array) -> Array:
 
 def solve(loss: Loss, impacts: Impacts) -> Outcome:
     """Outcome of impacts x >= 0, arrays of shape (n,), chunk by chunk."""
-    size = impacts.x.size
-    velocity, peak, work = (np.empty(size) for _ in range(3))
-    outcome = Outcome(velocity, peak, work, np.empty(size, np.uint8))
-    for start in range(0, size, CHUNK):
-        part = slice(start, start + CHUNK)
-        solved = _solve_chunk(loss, Impacts(*(group[part] for group in impacts)))
-        for field, values in zip(outcome, solved, strict=True):
-            field[part] = values
-    return outcome
+    starts = range(0, impacts.x.size, CHUNK) or [0]
+    parts = (Impacts(*(group[start : start + CHUNK] for group in impacts)) for start in starts)
+    solved = [_solve_chunk(loss, part) for part in parts]
+    return Outcome(*map(np.concatenate, zip(*solved, strict=True)))
 
 
 def history(loss: Loss, mirror: float, impact: Impacts, samples: int) -> History:
@@ -54,6 +49,8 @@ def friction_work(loss: Loss, impacts: Impacts) -> Array:
 
 def _solve_chunk(loss: Loss, impacts: Impacts) -> Outcome:
     """Outcome of impacts, arrays of shape (n,), all at once."""
+    if not loss.dashpots:
+        return stick_slip.solve(_springs(loss, impacts))
     damped = _damped(loss, impacts)
     if damped.all():
         return dashpots.solve(impacts)

@@ -17,11 +17,13 @@ The root is searched only where it is alone:
 * Slip cannot start while N exceeds A.
 """
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
-from planarimpact.common import roots
+from planarimpact.common import floats, roots
 from planarimpact.common.angles import HALF_PI, sin_cos
-from planarimpact.common.arrays import Array, Booleans, Integers
 
 # Rounding may put an onset at the very end of its bracket beyond it, by less than this share.
 BEYOND = 1 + 1e-6
@@ -30,11 +32,11 @@ FREE_STEPS = 3
 # Above this rate the onset is close to the crest of |T|: a second zero lies just behind the crest.
 # The search then starts from the crest, the end of the bracket.
 HIGH_RATE = 10.0
+# The ratio |T|/N is level at its largest value: half of the digits of its place are enough.
+LEVEL = 1e-8
 
 
-def in_restitution(
-    eta: Array, theta: Array, amplitude: Array, rate: Array
-) -> tuple[Array, Array, Array]:
+def in_restitution(eta: Any, theta: Any, amplitude: Any, rate: Any, m: Any) -> tuple[Any, Any, Any]:
     """Where slip starts in restitution: stick starts at `eta`, and |T| reaches N at an angle below.
 
     T has the angle `theta` at the start. `eta` falls by the advance a, and `theta` grows by rate a.
@@ -46,70 +48,81 @@ def in_restitution(
     Returns eta at the onset; rho, which is theta there, counted from the start of its half-wave;
     and the number of that half-wave, in which T has the sign of sin(theta) = (-1)^wave.
     """
-    # No slip starts while N exceeds the largest |T|: go on at once to where N has fallen to it.
-    fast = rate > 1
-    highest = amplitude
-    slow = np.flatnonzero(~fast)
-    if slow.size:
-        end = theta[slow] + rate[slow] * eta[slow]
-        highest = amplitude.copy()  # a T that still rises at separation stays below A
-        highest[slow] *= np.sin(np.minimum(end, HALF_PI))
-    reached = np.minimum(eta, np.arcsin(np.minimum(highest, 1.0)))
+    # No slip starts while N exceeds the largest |T|: go on at once to where N has fallen to it. For
+    # rate <= 1 a T that still rises at separation stays below A.
+    fast, highest = rate > 1, amplitude
+    all_fast = m.all(fast)
+    if not all_fast:
+        rises = m.sin(m.minimum(theta + rate * eta, HALF_PI))
+        highest = m.where(fast, amplitude, amplitude * rises)
+    reached = m.minimum(eta, m.arcsin(m.minimum(highest, 1.0)))
     theta_reached = theta + rate * (eta - reached)
     # For rate > 1 the half-wave of the onset is the present one or the next. It is the next where
-    # |T|/N is past its maximum (`passed`): in the first half-wave always, later where it falls.
-    present = np.floor(theta_reached / np.pi)
+    # |T|/N is past its maximum: in the first half-wave always, later where it falls.
+    present = m.floor(theta_reached / np.pi)
     rho = theta_reached - present * np.pi
-    passed = present == 0
-    behind_crest = np.flatnonzero(fast & ~passed & (rho > HALF_PI))
-    if behind_crest.size:
-        met, latest = _meets_behind_crest(
-            reached[behind_crest], rho[behind_crest], amplitude[behind_crest], rate[behind_crest]
-        )
-        passed[behind_crest] = ~met
-    wave = present + passed
-    if slow.size:
+    behind_crest = fast & (present > 0) & (rho > HALF_PI)
+    at_start = reached, rho, amplitude, rate
+    met, latest = _among(behind_crest, _meets_behind_crest, at_start, m)
+    wave = present + ((present == 0) | (behind_crest & (met == 0)))
+    if not all_fast:
         # For rate <= 1 slip starts in the half-wave in which stick would reach separation. Where
         # stick or a half-wave starts, |T|/N is at most 1; its only extremum after is a minimum. If
         # the half-wave ends before separation, T = 0 there: the ratio has stayed below 1. In the
         # half-wave of separation N vanishes first: the ratio grows without bound, so it crosses 1
         # once.
-        end = theta_reached[slow] + rate[slow] * reached[slow]
-        wave[slow] = np.maximum(present[slow], np.ceil(end / np.pi) - 1)
+        last = m.ceil((theta_reached + rate * reached) / np.pi) - 1
+        wave = m.where(fast, wave, m.maximum(present, last))
 
     # For rate > 1 the crossing lies before the crest of that half-wave, where |T| = A exceeds N.
-    start = np.maximum(theta_reached, wave * np.pi)
-    eta = np.maximum(reached - (start - theta_reached) / rate, 0.0)
+    start = m.maximum(theta_reached, wave * np.pi)
+    eta = m.maximum(reached - (start - theta_reached) / rate, 0.0)
     rho = start - wave * np.pi
-    widest = np.where(fast, np.minimum(eta, (HALF_PI - rho) / rate), eta)
-    if behind_crest.size:
-        widest[behind_crest[met]] = latest[met]
-    advance = _onset(eta, rho, amplitude, rate, np.maximum(widest, 0.0))
-    advance = np.minimum(advance, eta)  # rounding may put a root at separation behind it
+    widest = m.where(fast, m.minimum(eta, (HALF_PI - rho) / rate), eta)
+    widest = m.maximum(m.where(met, latest, widest), 0.0)
+    # The one advance from 0 to `widest` at which |T| reaches its limit.
+    ends = 0.0 * widest, widest * BEYOND
+    first = m.where(rate > HIGH_RATE, widest, 0.0)
+    state = eta, rho, amplitude, rate, amplitude * rate, rate * rate
+    advance = _crossing(_margin, state, ends, m, start=first, unguarded=FREE_STEPS)
+    advance = m.minimum(advance, eta)  # rounding may put a root at separation behind it
     return eta - advance, rho + rate * advance, wave
 
 
-def _onset(eta: Array, rho: Array, amplitude: Array, rate: Array, widest: Array) -> Array:
-    """The one advance a from 0 to `widest` at which |T| reaches its limit.
-
-    There N is sin(eta - a) and |T| is amplitude sin(rho + rate a).
-    """
-    square, swings = rate * rate, amplitude * rate
-
-    def margin(which: Integers | slice, advance: Array) -> tuple[Array, Array, Array]:
-        force, fall = sin_cos(eta[which] - advance)
-        friction, swing = sin_cos(rho[which] + rate[which] * advance)
-        friction = friction * amplitude[which]
-        slope = -(fall + swing * swings[which])
-        return force - friction, slope, square[which] * friction - force
-
-    start, low = np.where(rate > HIGH_RATE, widest, 0.0), np.zeros_like(widest)
-    return roots.crossing(margin, low, widest * BEYOND, start=start, unguarded=FREE_STEPS)
+def _crossing(
+    margin: Callable[..., tuple[Any, ...]], state: Any, ends: Any, m: Any, **options: Any
+) -> Any:
+    """The place between two ends where a margin(place, *state, m) falls through zero."""
+    if m is floats:
+        return roots.crossing_of_one(lambda place: margin(place, *state, m), *ends, **options)
+    return roots.crossing(
+        lambda which, place: margin(place, *(field[which] for field in state), m), *ends, **options
+    )
 
 
-def _meets_behind_crest(
-    eta: Array, rho: Array, amplitude: Array, rate: Array
-) -> tuple[Booleans, Array]:
+def _among(condition: Any, function: Callable[..., Any], state: Any, m: Any) -> tuple[Any, Any]:
+    """What a function(*state, m) returns where a condition holds; elsewhere False and 0."""
+    if not m.any(condition):
+        return False, 0.0
+    if m is floats:
+        return function(*state, m)
+    found, which = (np.zeros(condition.size, bool), np.zeros(condition.size)), condition.nonzero()
+    found[0][which], found[1][which] = function(*(field[which] for field in state), m)
+    return found
+
+
+def _margin(
+    advance: Any, eta: Any, rho: Any, amplitude: Any, rate: Any, swings: Any, square: Any, m: Any
+) -> tuple[Any, ...]:
+    """N - |T| after an advance, with two derivatives."""
+    force, fall = sin_cos(eta - advance, m)
+    friction, swing = sin_cos(rho + rate * advance, m)
+    friction = friction * amplitude
+    slope = -(fall + swing * swings)
+    return force - friction, slope, square * friction - force
+
+
+def _meets_behind_crest(eta: Any, rho: Any, amplitude: Any, rate: Any, m: Any) -> tuple[Any, Any]:
     """Whether a falling |T| meets its limit in this half-wave.
 
     Where it does, the second result is an advance at or behind the onset, before any other onset.
@@ -126,44 +139,31 @@ def _meets_behind_crest(
     3. Else the half-wave ends first. There T = 0 and |T|' < 0, so the rise is negative: it has one
        zero before, where the ratio is largest. |T| meets its limit if it is at or above it there.
     """
-    (force, fall), (friction, swing) = sin_cos(eta), sin_cos(rho)
+    state = eta, rho, amplitude, rate
+    (force, fall), (friction, swing) = sin_cos(eta, m), sin_cos(rho, m)
     rises = rate * swing * force + friction * fall > 0  # N' = -fall
-    met, latest = rises & (rate * eta <= np.pi - rho), eta.copy()
-    undecided = np.flatnonzero(rises & ~met)
-    if not undecided.size:
-        return met, latest
-    eta, rho, amplitude, rate = (
-        eta[undecided],
-        rho[undecided],
-        amplitude[undecided],
-        rate[undecided],
-    )
-
-    def forces(which: Integers | slice, theta: Array) -> tuple[Array, Array, Array, Array]:
-        force, fall = sin_cos(eta[which] - (theta - rho[which]) / rate[which])
-        return force, fall, *sin_cos(theta)
-
-    def rise(which: Integers, theta: Array) -> tuple[Array, ...]:
-        force, fall, friction, swing = forces(which, theta)
-        rates = rate[which]
-        falls = 1 / rates - rates
-        bend = falls * (swing * force - friction * fall / rates)
-        return rates * swing * force + friction * fall, falls * friction * force, bend
-
-    # The ratio is level at its largest value: half of the digits of the place are enough.
-    top = roots.crossing(rise, rho, np.full_like(rho, np.pi), start=rho, resolution=1e-8)
-    force, _, friction, _ = forces(slice(None), top)
-    met[undecided] = amplitude * friction >= force
-    latest[undecided] = (top - rho) / rate
-    return met, latest
+    undecided = rises & (rate * eta > np.pi - rho)
+    met, latest = _among(undecided, _meets_where_level, state, m)
+    return m.where(undecided, met, rises), m.where(undecided, latest, eta)
 
 
-def breaks_in_compression(amplitude: Array, theta: Array) -> Booleans:
-    """Whether stick with T = amplitude sin(theta) at the end has broken before, for rate < 1."""
-    return amplitude * np.sin(theta) > 1
+def _meets_where_level(eta: Any, rho: Any, amplitude: Any, rate: Any, m: Any) -> tuple[Any, Any]:
+    """The third case of `_meets_behind_crest`."""
+    ends = rho, np.pi + 0.0 * rho
+    top = _crossing(_rise, (eta, rho, rate), ends, m, start=rho, resolution=LEVEL)
+    force, friction = sin_cos(eta - (top - rho) / rate, m)[0], sin_cos(top, m)[0]
+    return amplitude * friction >= force, (top - rho) / rate
 
 
-def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
+def _rise(theta: Any, eta: Any, rho: Any, rate: Any, m: Any) -> tuple[Any, ...]:
+    """The rise where T has the angle theta, and two derivatives."""
+    (force, fall), (friction, swing) = sin_cos(eta - (theta - rho) / rate, m), sin_cos(theta, m)
+    falls = 1 / rate - rate
+    bend = falls * (swing * force - friction * fall / rate)
+    return rate * swing * force + friction * fall, falls * friction * force, bend
+
+
+def in_compression(x: Any, zeta2: Any, rate: Any, m: Any) -> Any:
     """First eta > 0 with x/(zeta^2 rate) sin(rate eta) at the limit of friction, for rate < 1.
 
     T must be above its limit at maximum compression. With u = eta^2, (T - N)/eta is increasing and
@@ -171,15 +171,16 @@ def in_compression(x: Array, zeta2: Array, rate: Array) -> Array:
     onset. For x = zeta^2 it is 0.
     """
     amplitude, ratio = x / (zeta2 * rate), x / zeta2
-    first = np.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
+    first = m.minimum(6 * (1 - ratio) / (1 - ratio * rate * rate), HALF_PI**2)
+    ends = first, HALF_PI**2 + 0.0 * first
+    return m.sqrt(_crossing(_margin_in_compression, (amplitude, rate), ends, m, start=first))
 
-    def margin(which: Integers, u: Array) -> tuple[Array, Array]:
-        eta, rates = np.sqrt(u), rate[which]
-        (friction, swing), (force, fall) = sin_cos(rates * eta), sin_cos(eta)
-        friction, swing = amplitude[which] * friction, amplitude[which] * swing * rates
-        safe = np.where(eta > 0, eta, 1.0)
-        slope = (eta * (fall - swing) - (force - friction)) / (2 * safe**3)
-        return (force - friction) / safe, slope
 
-    end = np.full_like(first, HALF_PI**2)
-    return np.sqrt(roots.crossing(margin, first, end, start=first))
+def _margin_in_compression(u: Any, amplitude: Any, rate: Any, m: Any) -> tuple[Any, ...]:
+    """(N - T)/eta where eta^2 = u, with its derivative."""
+    eta = m.sqrt(u)
+    (friction, swing), (force, fall) = sin_cos(rate * eta, m), sin_cos(eta, m)
+    friction, swing = amplitude * friction, amplitude * swing * rate
+    safe = eta + (eta == 0)
+    slope = (eta * (fall - swing) - (force - friction)) / (2 * m.power(safe, 3))
+    return (force - friction) / safe, slope

@@ -19,6 +19,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -28,6 +29,8 @@ from planarimpact.common.arrays import Array, ArrayLike
 from planarimpact.common.losses import LOSSES, LUMPED, SPHERES
 from planarimpact.common.results import Rebound
 from planarimpact.models import laws, timestep
+from planarimpact.models.choice import compare as compare
+from planarimpact.models.choice import materials as materials
 
 # How well e and mu of a pair of materials are known in practice: e to 0.02, mu to 10 %.
 RESTITUTION_ERROR, FRICTION_ERROR = 0.02, 0.1
@@ -70,7 +73,7 @@ class Model:
     """
 
     name: str
-    rebound: Callable[..., Rebound]
+    rebound: Callable[..., Rebound[Any, Any, Any]]
     settings: dict[str, float] = field(default_factory=dict)
     cost: str = "formula"
     restitution: tuple[float, float] = (0.0, 1.0)
@@ -109,7 +112,7 @@ def rebound(
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     **settings: float,
-) -> Rebound:
+) -> Rebound[Any, Any, Any]:
     """State at separation by the model of a name. Arguments and errors: `planarimpact.models`.
 
     Examples
@@ -297,7 +300,7 @@ MODELS = {
                 f"spheres.{name}",
                 partial(spheres.rebound, loss=name),
                 cost="table",
-                restitution=(spheres.LEAST_RESTITUTION, 1.0),
+                restitution=(spheres.LEAST_RESTITUTION[name], 1.0),
                 valid=f"continuum.{name} from a table; zeta^2 up to {spheres.LARGEST_STIFFNESS}, "
                 f"and m2/m1 over zeta^2 from {spheres.LEAST_RATIO} to {spheres.LARGEST_RATIO}",
                 source="solved by this package, planarimpact.continuum",

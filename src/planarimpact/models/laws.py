@@ -28,14 +28,14 @@ import numpy as np
 
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike, Booleans
-from planarimpact.common.results import Rebound, Regime
+from planarimpact.common.results import Rebound, Regime, of_groups
 
 # Least squares of velocity against `planarimpact.continuum.rebound` at beta = 3.5, zeta^2 = 17/14
 # (Poisson's ratio 0.3), x = 0, 0.05 ... 8, among numbers from 0 to 1, rounded to two digits.
 BRACH_TANGENTIAL_RESTITUTION = 0.40
 
 
-@checks.default_errors
+@of_groups
 def brach(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -69,7 +69,7 @@ def brach(
     return _rebound(signed, velocity, beta, e, slides)
 
 
-@checks.default_errors
+@of_groups
 def smith(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
@@ -159,7 +159,7 @@ class of_velocity:  # in small letters, as users call it, or decorate with it, l
         stiffness_ratio: ArrayLike = 1.21,
         restitution: ArrayLike = 1.0,
         **settings: float,
-    ) -> Rebound:
+    ) -> Rebound[Any, Any, Any]:
         """State at separation by the velocity."""
         groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
         signed, (x, beta, zeta2, e) = groups[0], (np.abs(a).reshape(-1) for a in groups)

@@ -32,7 +32,7 @@ from planarimpact.common.checks import (
     finite,
     positive,
 )
-from planarimpact.common.losses import NONCOLLINEAR
+from planarimpact.common.losses import NONCOLLINEAR, NoncollinearLoss
 from planarimpact.common.records import record
 from planarimpact.common.results import Regime
 from planarimpact.noncollinear import rigid
@@ -40,10 +40,8 @@ from planarimpact.noncollinear.configuration import (
     InverseMass,
     checked_impact,
     combined,
-    contact_velocity,
     fields_of,
     inverse_mass,
-    motion_after,
 )
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
 from planarimpact.phases import Step
@@ -55,11 +53,9 @@ __all__ = [
     "NoncollinearHistory",
     "NoncollinearRebound",
     "combined",
-    "contact_velocity",
     "history",
     "inverse_mass",
     "kinetic_energy",
-    "motion_after",
     "rebound",
     "rigid",
 ]
@@ -106,7 +102,7 @@ class NoncollinearRebound(NamedTuple):
     friction_work: Array
     hysteresis: Array
     duration: Array
-    regime: Any  # as in Rebound
+    regime: Integers | Regime
     jams: Booleans
 
 
@@ -120,7 +116,7 @@ def rebound(
     stiffness_ratio: ArrayLike = 1.21,
     stiffness: ArrayLike = 1.0,
     *,
-    loss: str | None = None,
+    loss: NoncollinearLoss | None = None,
 ) -> NoncollinearRebound:
     """State at separation; all arguments broadcast.
 
@@ -196,6 +192,31 @@ def rebound(
     arguments = _checked(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
+    result, given_up = _rebound(arguments)
+    if given_up:
+        if not arguments[0].ndim:
+            raise ConvergenceError(given_up)
+        # As NumPy does where a function of an array has no value for an entry.
+        warnings.warn(given_up, RuntimeWarning, stacklevel=3)
+    return result
+
+
+def quiet_rebound(
+    tangential: Array,
+    normal: Array,
+    inverse_mass: InverseMass,
+    friction: Array,
+    restitution: Array,
+    stiffness_ratio: Array,
+    loss: str,
+) -> NoncollinearRebound:
+    """As `rebound`, without a warning: NaN says what the solver gives up."""
+    groups = tangential, normal, inverse_mass, friction, restitution, stiffness_ratio
+    return _rebound(_checked(*groups, 1.0, loss))[0]
+
+
+def _rebound(arguments: tuple[Array, ...]) -> tuple[NoncollinearRebound, str]:
+    """State at separation of checked arguments, and what is said of those that are given up."""
     v2, m2, kappa, groups = _groups(arguments)
     contacts = OffCentre(*groups)
     unsolved = solve(contacts)
@@ -214,17 +235,14 @@ def rebound(
     regime, jams = contacts.order.regimes().astype(np.uint8), contacts.jams
     shape = arguments[0].shape
     if unsolved.size:
-        if not shape:
-            raise ConvergenceError(_given_up(groups, unsolved))
-        # As NumPy does where a function of an array has no value for an entry.
-        warnings.warn(_given_up(groups, unsolved), RuntimeWarning, stacklevel=3)
         for field in fields:
             field[unsolved] = np.nan
         regime[unsolved], jams[unsolved] = Regime.UNRESOLVED, False
     columns: list[Any] = [column.reshape(shape)[()] for column in (*fields, regime, jams)]
     if not shape:
         columns[-2:] = Regime(int(regime[0])), bool(jams[0])
-    return NoncollinearRebound._make(columns)
+    said = _given_up(groups, unsolved) if unsolved.size else ""
+    return NoncollinearRebound._make(columns), said
 
 
 @checks.default_errors
@@ -238,7 +256,7 @@ def history(
     stiffness: float = 1.0,
     samples: int = 400,
     *,
-    loss: str | None = None,
+    loss: NoncollinearLoss | None = None,
 ) -> NoncollinearHistory:
     """Forces and velocities over one contact.
 

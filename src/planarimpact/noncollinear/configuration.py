@@ -1,11 +1,10 @@
-"""Inverse mass of a body at its contact point, and motion before and after an impact.
+"""Inverse mass of a body at its contact point; its motion is that of `planarimpact.collide`.
 
 Axes and signs as in `planarimpact.bodies`: tangential velocities and forces along any one direction
 of the surface, normal velocities positive while the body approaches. The contact point lies at
 (offset, depth) from the centre of mass: `offset` along the tangential direction, `depth` along the
-approach of the first body; in the paper x1 = offset, x2 = -depth. Spin is positive where it moves a
-contact point of positive depth in the tangential direction. Friction and normal force are positive
-where they oppose positive velocities of the (first) body.
+approach of the first body; in the paper x1 = offset, x2 = -depth. Friction and normal force are
+positive where they oppose positive velocities of the (first) body.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planarimpact.bodies import Motion, fields
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, ArrayLike, Numbers
 from planarimpact.common.checks import InputError, checked, finite, not_negative, positive
@@ -156,82 +154,3 @@ def fields_of(inverse_mass: InverseMass) -> dict[str, Array]:
     """Checked fields of an inverse mass, keyed by the names that a refusal shows."""
     mass = checked_inverse_mass(inverse_mass)
     return {f"inverse_mass.{name}": field for name, field in mass._asdict().items()}
-
-
-@checks.default_errors
-def contact_velocity(motion: Motion, offset: ArrayLike, depth: ArrayLike) -> tuple[Array, Array]:
-    """Velocity of the contact point of a body.
-
-    Parameters
-    ----------
-    motion : bodies.Motion
-        Of the centre of mass [m/s, m/s] and spin [rad/s]; numbers or arrays that broadcast.
-    offset, depth : array_like
-        Contact point [m].
-
-    Returns
-    -------
-    tangential, normal : ndarray of float64 or float
-        [m/s].
-
-    Examples
-    --------
-    >>> from planarimpact.bodies import Motion
-    >>> [float(v) for v in contact_velocity(Motion(0.0, 1.0, 2.0), offset=0.25, depth=0.5)]
-    [1.0, 0.5]
-    """
-    tangential, normal, spin, offset, depth = checks.broadcast(
-        **fields("motion", motion, Motion),
-        offset=finite("offset", offset),
-        depth=finite("depth", depth),
-    )
-    return tangential + depth * spin, normal - offset * spin
-
-
-@checks.default_errors
-def motion_after(
-    motion: Motion,
-    impulses: tuple[ArrayLike, ArrayLike],
-    mass: ArrayLike,
-    gyration: ArrayLike,
-    offset: ArrayLike,
-    depth: ArrayLike,
-) -> Motion:
-    """Motion of a body after an impact, from the impulses of friction and normal force.
-
-    Parameters
-    ----------
-    motion : bodies.Motion
-        Before the impact.
-    impulses : (array_like, array_like)
-        Of friction and normal force [N s]: `tangential_impulse` and `normal_impulse` of a result;
-        with both signs changed for the second of two bodies.
-    mass, gyration, offset, depth : array_like
-        As in `inverse_mass`.
-
-    Returns
-    -------
-    bodies.Motion
-
-    Examples
-    --------
-    >>> from planarimpact.bodies import Motion
-    >>> after = motion_after(Motion(0.0, 1.0, 0.0), (0.0, 1.5), 1.0, 0.5, offset=0.5, depth=0.0)
-    >>> [float(v) for v in after]
-    [0.0, -0.5, 3.0]
-    """
-    try:
-        friction, normal = impulses
-    except (TypeError, ValueError):
-        raise InputError(f"impulses = {checks.brief(impulses)}: allowed are two") from None
-    mass, gyration, friction, normal, offset, depth, tangential, approach, spin = checks.broadcast(
-        mass=positive("mass", mass),
-        gyration=positive("gyration", gyration),
-        friction=finite("impulses[0]", friction),
-        normal=finite("impulses[1]", normal),
-        offset=finite("offset", offset),
-        depth=finite("depth", depth),
-        **fields("motion", motion, Motion),
-    )
-    spin_change = (normal * offset - friction * depth) / mass / gyration**2
-    return Motion(tangential - friction / mass, approach - normal / mass, spin + spin_change)

@@ -94,18 +94,23 @@ class Loading(NamedTuple):
 
     def at(self, depth: Array) -> tuple[Array, Array, Array]:
         """Time, velocity and force at an approach, shape (..., m)."""
-        elastic = np.minimum(depth, self.yields)
-        v = elastic_velocity(elastic)
-        full = hertz.FULL
+        elastic, full = np.minimum(depth, self.yields), hertz.FULL
         time = full**0.4 * hertz.COMPRESSION * hertz.time(np.arcsin(np.sqrt(elastic) / full**0.2))
-        plastic = depth > self.yields
-        to_go = np.clip((self.largest_approach() - depth) / self.reach, 0.0, 1.0)
-        harmonic = np.sqrt(to_go * (2 - to_go))  # exactly 0 at the end
         start = np.arcsin((self.yields - self.centre) / self.reach)
-        later = (np.arccos(harmonic) - start) / self.rate
+        later = (np.arccos(self._harmonic(depth)) - start) / self.rate
+        return np.where(depth > self.yields, time + later, time), *self.motion(depth)
+
+    def motion(self, depth: Array) -> tuple[Array, Array]:
+        """Velocity and force at an approach, shape (..., m), in less time than `at`."""
+        elastic, plastic = np.minimum(depth, self.yields), depth > self.yields
         force = np.where(plastic, self.rate**2 * (depth - self.centre), 4 / 3 * elastic**1.5)
-        v = np.where(plastic, self.rate * self.reach * harmonic, v)
-        return np.where(plastic, time + later, time), v, force
+        flowing = self.rate * self.reach * self._harmonic(depth)
+        return np.where(plastic, flowing, elastic_velocity(elastic)), force
+
+    def _harmonic(self, depth: Array) -> Array:
+        """Cosine of the plastic motion, exactly 0 at its end."""
+        to_go = np.clip((self.largest_approach() - depth) / self.reach, 0.0, 1.0)
+        return np.sqrt(to_go * (2 - to_go))
 
     def approach(self, velocity: Array) -> Array:
         """Approach at a velocity from 1 to 0, shape (m,)."""

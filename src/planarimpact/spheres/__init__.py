@@ -1,8 +1,9 @@
 """The continuum of spheres from a table: fast, also where every impact has groups of its own.
 
 The table has the rebound of elastic, viscous and plastic spheres, as `planarimpact.continuum`
-solves it, for every incidence, restitution from 0.3 to 1, and mass over stiffness ratio from 1.5625
-to 3.5. Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's ratio from 0 to 1/2
+solves it, for every incidence and for mass over stiffness ratio from 1.1 to 3.5. Restitution is
+from 0.1 to 1 with viscous loss, and from 0.3 with plastic loss, as that law does not hold below.
+Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's ratio from 0 to 1/2
 (stiffness ratio 1 to 1.5) are among them, and so is whatever lies between, such as discs (3).
 `table` evaluates it.
 """
@@ -13,38 +14,47 @@ import numpy as np
 
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
-from planarimpact.common.losses import CODES, PLASTIC, SPHERES
-from planarimpact.common.results import Rebound, Regime
+from planarimpact.common.losses import CODES, PLASTIC, SPHERES, SpheresLosses
+from planarimpact.common.results import Rebound, Regime, of_groups
 from planarimpact.spheres import table
 
 # Names of the losses that spheres have.
 LOSSES = tuple(SPHERES)
 # By panel of the table, and by loss: the largest difference from the continuum, of velocity
 # (mu v2(0)), peak friction (mu F2max) and, with viscous loss, dissipation (mu^2 m2 v2(0)^2); times
-# x where that is below 1. It is measured, not proved: a little above the largest error that the
-# searches of tests/reference/test_spheres_reference.py have climbed to. With plastic loss
-# dissipation is (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to E makes one
-# of it up to E (|w| + E/2)/beta, which grows with the incidence.
+# x where that is below 1, and for stiffness ratios up to `STATED_STIFFNESS`: beyond, in proportion.
+# It is measured, not proved: a little above the largest error that the searches of
+# tests/reference/test_spheres_reference.py have climbed to. With plastic loss dissipation is
+# (x^2 - w^2)/(2 beta) by the balance of energy. So an error of w up to E makes one of it up to
+# E (|w| + E/2)/beta, which grows with the incidence.
 PANEL_BOUND = {"viscous": 1.5e-4, "plastic_low": 4e-3, "plastic_middle": 4e-3, "plastic_high": 9e-4}
 ERROR_BOUND = {"viscous": PANEL_BOUND["viscous"], "plastic": PANEL_BOUND["plastic_low"]}
-LEAST_RESTITUTION = 0.3
+LEAST_RESTITUTION = {"viscous": 0.1, "plastic": 0.3}
 # Bounds of mass ratio over stiffness ratio.
-LEAST_RATIO, LARGEST_RATIO = 1.5625, 3.5
-# Errors of velocity and work are in proportion to zeta^2: the bound is stated up to this one.
-LARGEST_STIFFNESS = 1.6
+LEAST_RATIO, LARGEST_RATIO = 1.1, 3.5
+# Errors of velocity and work are in proportion to zeta^2: the bounds are stated up to the first.
+STATED_STIFFNESS, LARGEST_STIFFNESS = 1.6, 3.5
 # The bounds are admitted although rounding puts a ratio a little beyond.
 ROUNDING = 1e-9
 # Impacts evaluated together: they stay in the cache.
 CHUNK = 16384
 
 
-def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: ArrayLike) -> Booleans:
+def covers(
+    mass_ratio: ArrayLike,
+    stiffness_ratio: ArrayLike,
+    restitution: ArrayLike,
+    *,
+    loss: str | None = None,
+) -> Booleans:
     """Whether the table has an answer for these groups, at every incidence; they broadcast.
 
     Parameters
     ----------
     mass_ratio, stiffness_ratio, restitution : array_like
         As in `planarimpact.lumped.rebound`.
+    loss : str, optional
+        "viscous" or "plastic"; without one, whether there is an answer with both of them.
 
     Returns
     -------
@@ -52,17 +62,32 @@ def covers(mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: Array
 
     Examples
     --------
-    >>> covers(3.5, [1.0, 1.21, 2.0], 0.8).tolist()
-    [True, True, False]
+    >>> covers(3.5, [0.9, 1.21, 3.1], 0.8).tolist()
+    [False, True, True]
+    >>> covers(3.5, 1.21, [0.2, 0.3]).tolist()
+    [False, True]
+    >>> covers(3.5, 1.21, [0.2, 0.3], loss="viscous").tolist()
+    [True, True]
     """
-    beta = checks.real("mass_ratio", mass_ratio)
-    zeta2 = checks.real("stiffness_ratio", stiffness_ratio)
-    e = checks.real("restitution", restitution)
-    with np.errstate(over="ignore"):  # of a stiffness ratio near 0
+    plastic = np.array(loss is None or checks.loss(loss, SPHERES) == PLASTIC.name)
+    return _covers(mass_ratio, stiffness_ratio, restitution, plastic)
+
+
+def _covers(
+    mass_ratio: ArrayLike, stiffness_ratio: ArrayLike, restitution: ArrayLike, plastic: Booleans
+) -> Booleans:
+    """As `covers`, by whether the loss is plastic."""
+    beta, zeta2, e = checks.broadcast(
+        mass_ratio=checks.real("mass_ratio", mass_ratio),
+        stiffness_ratio=checks.real("stiffness_ratio", stiffness_ratio),
+        restitution=checks.real("restitution", restitution),
+    )
+    with np.errstate(over="ignore", divide="ignore"):  # of a stiffness ratio near 0
         ratio = beta / zeta2
+    least = np.where(plastic, LEAST_RESTITUTION["plastic"], LEAST_RESTITUTION["viscous"])
     low, high = LEAST_RATIO * (1 - ROUNDING), LARGEST_RATIO * (1 + ROUNDING)
     small = (beta >= 1) & (zeta2 <= LARGEST_STIFFNESS * (1 + ROUNDING))
-    return small & (ratio >= low) & (ratio <= high) & (e >= LEAST_RESTITUTION) & (e <= 1)
+    return small & (ratio >= low) & (ratio <= high) & (e >= least) & (e <= 1)
 
 
 def error_bound(
@@ -71,7 +96,7 @@ def error_bound(
     """Largest error of velocity for these groups, mu v2(0); infinite where `covers` is False.
 
     Below x = 1 the error is x times that. With plastic loss it is smaller above a restitution from
-    0.63 (mass over stiffness ratio 3.5) to 0.84 (1.56), 0.67 for solid spheres of steel.
+    0.62 (mass over stiffness ratio 3.5) to 0.96 (1.1), 0.67 for solid spheres of steel.
 
     Parameters
     ----------
@@ -83,27 +108,27 @@ def error_bound(
 
     Examples
     --------
-    >>> error_bound(*np.array([[3.5, 3.5], [1.21, 1.21], [0.7, 0.6]]), np.array([True, True]))
-    array([0.0009, 0.004 ])
+    >>> error_bound(*np.array([[3.5, 3.5], [1.21, 2.4], [0.7, 0.6]]), np.array([True, False]))
+    array([0.0009  , 0.000225])
     """
     bound = np.where(plastic, ERROR_BOUND["plastic"], ERROR_BOUND["viscous"])
-    covered = covers(mass_ratio, stiffness_ratio, restitution)
+    covered = _covers(mass_ratio, stiffness_ratio, restitution, plastic)
     bound[~covered] = np.inf
     rows = np.flatnonzero(covered & plastic)
-    u = table.over_b(mass_ratio[rows] / stiffness_ratio[rows])
-    high = restitution[rows] >= table.limits_at(table.shipped(), u)[1]
+    b = mass_ratio[rows] / stiffness_ratio[rows]
+    high = restitution[rows] >= table.limits_at(table.shipped(), b)[1]
     bound[rows[high]] = PANEL_BOUND["plastic_high"]
-    return bound
+    return bound * np.maximum(stiffness_ratio / STATED_STIFFNESS, 1.0)
 
 
-@checks.default_errors
+@of_groups
 def rebound(
     incidence: ArrayLike,
     mass_ratio: ArrayLike = 3.5,
     stiffness_ratio: ArrayLike = 1.21,
     restitution: ArrayLike = 1.0,
     *,
-    loss: str | ArrayLike | None = None,
+    loss: SpheresLosses | None = None,
     forces: bool = True,
 ) -> Rebound:
     """State at separation; all arguments broadcast, the loss too.
@@ -114,7 +139,8 @@ def rebound(
         As in `planarimpact.lumped.rebound`, with groups that `covers` admits.
     loss : str or array_like of str, optional
         What takes the energy where e < 1, as in `planarimpact.continuum`: "viscous" or "plastic".
-        Where all impacts have e = 1 it may be left out; it has no effect beyond `ERROR_BOUND`.
+        Where all impacts have e = 1 it may be left out, as if viscous; it has no effect beyond
+        `ERROR_BOUND`.
     forces : bool
         Whether peak friction and dissipation are wanted. They are NaN without, in half the time.
 
@@ -122,7 +148,8 @@ def rebound(
     -------
     Rebound
         The same fields and units as `planarimpact.continuum.rebound`, within `ERROR_BOUND` of it,
-        below x = 1 within x times that, but no reversals. The error of plastic dissipation is up to
+        times the stiffness ratio over 1.6 where that is larger than 1, below x = 1 within x times
+        that, but no reversals. The error of plastic dissipation is up to
         |velocity|/mass_ratio times that of velocity. Where slip throughout
         begins, and where parts of the table meet, the velocity jumps: by up to 0.001 mu v2(0) with
         plastic loss, 4e-6 with viscous. Impacts that slide as a
@@ -139,11 +166,11 @@ def rebound(
     >>> impacts = [0.5, 2.0, 8.0], 3.5, 17 / 14, [1.0, 0.8, 0.6]
     >>> rebound(*impacts, loss=["viscous", "plastic", "plastic"]).velocity.round(3).tolist()
     [0.061, -0.189, 2.4]
-    >>> rebound(2.0, restitution=0.2, loss="viscous")
+    >>> rebound(2.0, restitution=0.2, loss="plastic")
     Traceback (most recent call last):
     ...
     planarimpact.InputError: restitution = 0.2: allowed are numbers from 0.3 to 1, for the \
-table of spheres
+table of spheres with loss = 'plastic'
     """
     groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     codes = checks.losses(loss, SPHERES)
@@ -154,8 +181,10 @@ table of spheres
         raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
     if (codes < 0).any():
         checks.require_loss(np.where(codes < 0, e, 1.0), LOSSES)
-    plastic = (codes == CODES[PLASTIC]).reshape(-1)
-    _refuse_uncovered(beta, zeta2, e)
+    plastic = codes == CODES[PLASTIC]
+    if not _covers(beta, zeta2, e, plastic).all():
+        _refuse_uncovered(beta, zeta2, e, plastic)
+    plastic = plastic.reshape(-1)
     x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
     velocity, peak, work = np.empty((3, x.size))
     regime = np.empty(x.size, dtype=np.uint8)
@@ -167,17 +196,18 @@ table of spheres
     return Rebound.shaped(signed, velocity, peak, work, regime)
 
 
-def _refuse_uncovered(beta: Array, zeta2: Array, e: Array) -> None:
-    if covers(beta, zeta2, e).all():
-        return
-    allowed = f"numbers from {LEAST_RESTITUTION} to 1, for the table of spheres"
-    checks.checked("restitution", e, allowed, LEAST_RESTITUTION, 1)
+def _refuse_uncovered(beta: Array, zeta2: Array, e: Array, plastic: Booleans) -> None:
     allowed = f"numbers above 0 up to {LARGEST_STIFFNESS}, for the table of spheres"
     checks.checked("stiffness_ratio", zeta2, allowed, 0, LARGEST_STIFFNESS * (1 + ROUNDING))
-    bad = ~covers(beta, zeta2, 1.0)
+    for loss, mine in (("viscous", ~plastic), ("plastic", plastic)):
+        least = LEAST_RESTITUTION[loss]
+        allowed = f"numbers from {least} to 1, for the table of spheres with loss = {loss!r}"
+        # Indices stay those of the caller.
+        checks.checked("restitution", np.where(mine, e, 1.0), allowed, least, 1)
+    bad = np.flatnonzero(~_covers(beta, zeta2, 1.0, plastic))[0]
     raise checks.InputError(
-        f"mass_ratio/stiffness_ratio = {beta[bad].flat[0]:g}/{zeta2[bad].flat[0]:g}: allowed are "
-        f"ratios from {LEAST_RATIO} to {LARGEST_RATIO}, for the table of spheres"
+        f"mass_ratio/stiffness_ratio = {beta.flat[bad]:g}/{zeta2.flat[bad]:g}: allowed are ratios "
+        f"from {LEAST_RATIO} to {LARGEST_RATIO}, for the table of spheres"
     )
 
 

@@ -23,17 +23,17 @@ from planarimpact.common import checks
 from planarimpact.common.arrays import Array, Booleans, Integers, Number
 from planarimpact.normal_impact import hertz, kelvin_voigt, yielding
 
-# Bounds of b and e: a little wider than those that `spheres` admits.
-B_LEAST, B_MOST, E_LEAST = 1.55, 3.55, 0.295
 # Where s has its root: nowhere, at the left edge of a patch, or at its right edge. The answer bends
 # there like a power 3/2 of the distance.
 EVEN, LEFT, RIGHT = range(3)
 ROOTS = {
-    "viscous": (EVEN, LEFT, EVEN, EVEN, RIGHT),
+    "viscous": (RIGHT, LEFT, EVEN, EVEN, RIGHT),
     "plastic_low": (EVEN, LEFT, RIGHT, RIGHT),
     "plastic_middle": (EVEN, LEFT, RIGHT, RIGHT),
     "plastic_high": (EVEN, LEFT, RIGHT, RIGHT),
 }
+# By loss the bounds of b, and the least e: wider than those that `spheres` admits.
+SPANS = {"viscous": (1.01, 4.1, 0.095), "plastic": (1.05, 3.55, 0.295)}
 # Slip throughout begins at this share of its threshold, because of rounding.
 NEARLY = 1 - 2.0**-50
 # B-splines that are not zero within an interval.
@@ -52,7 +52,7 @@ class Panel(NamedTuple):
     intervals : ndarray of int, shape (patches,)
         How many the splines over s have.
     edges : ndarray, shape (edges, nt + 1, nu + 1)
-        y of the edges that vary with t and u, ascending.
+        y of the edges that vary with t and u, ascending; with viscous loss (y - 1)/(b - 1).
     velocity, peak : ndarray, shape (s, t, u)
         Coefficients of velocity over zeta^2, and of peak friction; of both over y in the first
         patch.
@@ -180,8 +180,7 @@ def evaluate(
 
     Without `forces` peak friction and work are NaN.
     """
-    u = over_b(b)
-    limits = limits_at(table, u)
+    limits = limits_at(table, b)
     velocity, peak, work = np.empty((3, y.size))
     answer = Answer(velocity, peak, work, np.zeros(y.size, dtype=bool))
     below = e < limits
@@ -189,21 +188,27 @@ def evaluate(
     for panel, rows in zip(table.panels.values(), panels, strict=True):
         which = np.flatnonzero(rows)
         if which.size:
-            part = _answer(panel, *(a[..., which] for a in (y, b, e, u, limits)), forces=forces)
+            part = _answer(panel, *(a[..., which] for a in (y, b, e, limits)), forces=forces)
             for values, panel_values in zip(answer, part, strict=True):
                 values[which] = panel_values
     return answer
 
 
-def limits_at(table: Table, u: Array) -> Array:
-    """Restitutions between the plastic panels at u, shape (2, n)."""
-    index, part = _places(u, table.limits.shape[1] - 1)
+def limits_at(table: Table, b: Array) -> Array:
+    """Restitutions between the plastic panels at b, shape (2, n)."""
+    index, part = _places(over_b("plastic", b), table.limits.shape[1] - 1)
     return np.stack([_between(limit, index, part) for limit in table.limits])
 
 
-def over_b(b: Number) -> Number:
+def over_b(loss: str, b: Number) -> Number:
     """u, from 0 to 1 over b."""
-    return (b - B_LEAST) / (B_MOST - B_LEAST)
+    least, most, _ = SPANS[loss]
+    return (b - least) / (most - least)
+
+
+def loss_of(name: str) -> str:
+    """The loss of a panel."""
+    return name.partition("_")[0]
 
 
 def over_e(name: str, e: Any, limits: Any) -> Any:
@@ -213,11 +218,11 @@ def over_e(name: str, e: Any, limits: Any) -> Any:
     limit the last stick lasts within a range of y that shrinks to nothing. Yield begins at a
     velocity that falls with the fourth root of 1 - e as e approaches 1.
     """
-    low, high = limits
+    (low, high), (*_, least) = limits, SPANS[loss_of(name)]
     if name == "viscous":
-        return (e - E_LEAST) / (1 - E_LEAST)
+        return (e - least) / (1 - least)
     if name == "plastic_low":
-        return 1 - np.sqrt(np.maximum(E_LEAST / e - E_LEAST / low, 0.0) / (1 - E_LEAST / low))
+        return 1 - np.sqrt(np.maximum(least / e - least / low, 0.0) / (1 - least / low))
     if name == "plastic_middle":
         return (e - low) / (high - low)
     return np.sqrt(np.sqrt((1 - e) / (1 - high)))
@@ -226,7 +231,7 @@ def over_e(name: str, e: Any, limits: Any) -> Any:
 def edges_of(name: str, varying: Sequence[Any], b: Any, e: Any) -> list[Any]:
     """Edges of a panel's patches, from 0 to slip throughout; arrays, or floats of one impact."""
     if name == "viscous":
-        inner = [varying[0], np.minimum(varying[1], b), b]
+        inner = [*(1 + (b - 1) * share for share in varying), b]
     else:
         slides = b if name == "plastic_high" else varying[0]
         inner = [(1 + slides) / 2, slides]
@@ -240,32 +245,34 @@ def of_one(table: Table, y: float, b: float, e: float, plastic: bool) -> tuple[s
     As `evaluate`, in Python's floats: an operation of NumPy takes a microsecond, however few the
     numbers. A block of coefficients is multiplied by its weights, axis by axis.
     """
-    u = over_b(b)
-    column, part = _place(u, table.limits.shape[1] - 1)
+    name, low, high, u = "viscous", 0.0, 0.0, over_b("plastic" if plastic else "viscous", b)
+    # Plastic limits have the intervals of the edges.
+    count = table.panels["plastic_low" if plastic else "viscous"].edges.shape[2] - 1
+    column, part = _place(u, count)
     over_u = 1 - part, part
-    low, high = (table.limits[:, column : column + 2] @ over_u).tolist()
-    part_of_plastic = "low" if e < low else "middle" if e < high else "high"
-    panel = table.panels[f"plastic_{part_of_plastic}" if plastic else "viscous"]
-    t = float(over_e(panel.name, e, (low, high)))
+    if plastic:
+        low, high = (table.limits[:, column : column + 2] @ over_u).tolist()
+        name = f"plastic_{'low' if e < low else 'middle' if e < high else 'high'}"
+    panel, t = table.panels[name], float(over_e(name, e, (low, high)))
     row, part = _place(t, panel.edges.shape[1] - 1)
     corners = panel.edges[:, row : row + 2, column : column + 2]
-    edges = edges_of(panel.name, ((1 - part, part) @ corners @ over_u).tolist(), b, e)
+    edges = edges_of(name, ((1 - part, part) @ corners @ over_u).tolist(), b, e)
     slides_from = float(edges[-1]) * NEARLY
     if y >= slides_from:
-        return panel.name, slides_from, 0.0
+        return name, slides_from, 0.0
     patch = max(k for k, edge in enumerate(edges[:-1]) if y >= edge)
     start, end = edges[patch : patch + 2]
     s = (y - start) / (end - start)
-    root = ROOTS[panel.name][patch]
+    root = ROOTS[name][patch]
     s = sqrt(s) if root == LEFT else 1 - sqrt(1 - s) if root == RIGHT else s
     _, count_t, count_u = panel.velocity.shape
     i, part_s = _place(s, int(panel.intervals[patch]))
-    i += int(panel.intervals[:patch].sum()) + patch * (ORDER - 1)
+    i += sum(panel.intervals[:patch].tolist()) + patch * (ORDER - 1)
     j, part_t = _place(t, count_t - ORDER + 1)
     k, part_u = _place(u, count_u - ORDER + 1)
     block = panel.velocity[i : i + ORDER, j : j + ORDER, k : k + ORDER]
     share = _weights(part_s) @ (block @ _weights(part_u) @ _weights(part_t))
-    return panel.name, slides_from, float(share) * (1.0 if patch else y)
+    return name, slides_from, float(share) * (1.0 if patch else y)
 
 
 def _place(value: float, count: int) -> tuple[int, float]:
@@ -275,10 +282,8 @@ def _place(value: float, count: int) -> tuple[int, float]:
     return index, at - index
 
 
-def _answer(
-    panel: Panel, y: Array, b: Array, e: Array, u: Array, limits: Array, *, forces: bool
-) -> Answer:
-    t = over_e(panel.name, e, limits)
+def _answer(panel: Panel, y: Array, b: Array, e: Array, limits: Array, *, forces: bool) -> Answer:
+    t, u = over_e(panel.name, e, limits), over_b(loss_of(panel.name), b)
     edges = edges_of(panel.name, varying_edges(panel.edges, t, u), b, e)
     patch = np.zeros(y.size, dtype=np.intp)
     low, high = edges[:2]

@@ -9,7 +9,7 @@ equation is compared with the model.
 
 import inspect
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,11 +32,10 @@ ELASTIC_LIMIT = 2 * MASS_RATIO - STIFFNESS_RATIO
 
 # What a check yields at one place.
 Gaps = Iterator[ArrayLike]
-_Answer = TypeVar("_Answer")
 _KNOWN: dict[tuple[Any, ...], Any] = {}
 
 
-def once(solver: Callable[..., _Answer], *groups: ArrayLike, **settings: float | str) -> _Answer:
+def once(solver: Callable[..., Any], *groups: ArrayLike, **settings: float | str) -> Any:
     """What a solver returns, computed once for equal arguments, as many checks share an impact.
 
     Callers must not change the result.

@@ -173,7 +173,7 @@ def reversal_without_compliance() -> float:
     return float(min(rebound.velocity.min() for rebound in rebounds))
 
 
-def _bilbao(x: float, mass_ratio: float, e: float) -> Array:
+def _bilbao(x: float, mass_ratio: float, e: float) -> np.float64:
     """Velocity w = x - 2 x (1 - exp(-B/(2 x))), B = (1 + e) beta: our reconstruction.
 
     Stronge cites Bilbao et al. (1989) for a velocity ratio that is exponential in mu v2/v1, and

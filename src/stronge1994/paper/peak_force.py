@@ -560,4 +560,4 @@ def full_friction_angle() -> float:
 )
 def ball_mass() -> float:
     """Mass of a steel ball of 25.4 mm and half as much for its holder, kg."""
-    return 1.5 * float(bodies.solid_sphere(0.0127, 7850.0).mass)
+    return 1.5 * float(bodies.solid_sphere(0.0127, density=7850.0).mass)

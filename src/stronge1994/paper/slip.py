@@ -505,7 +505,11 @@ def first_slip_in_restitution() -> float:
 )
 def smallest_frequency_ratio() -> float:
     r"""Smallest $\omega/\Omega$ of solid spheres, thin shells and discs, $\nu$ from 0 to 0.5."""
-    shapes = bodies.solid_sphere(0.01, 7800.0), bodies.thin_shell(1.0, 1.0), bodies.disc(1.0, 1.0)
+    shapes = (
+        bodies.solid_sphere(0.01, density=7800.0),
+        bodies.thin_shell(1.0, mass=1.0),
+        bodies.disc(1.0, mass=1.0),
+    )
     beta = min(float(bodies.mass_ratio(body)) for body in shapes)
     zeta2 = bodies.stiffness_ratio(bodies.Material(2e11, np.linspace(0, 0.5, 51)))
     return float(np.sqrt(beta / zeta2.max()))
@@ -659,7 +663,7 @@ def three_sequences_of_spheres() -> float:
 )
 def mass_ratio() -> float:
     """$m_2/m_1$ of a solid sphere."""
-    return float(bodies.mass_ratio(bodies.solid_sphere(0.01, 7800.0)))
+    return float(bodies.mass_ratio(bodies.solid_sphere(0.01, density=7800.0)))
 
 
 @entry(

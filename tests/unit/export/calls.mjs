@@ -1,6 +1,6 @@
 // What is said to a caller who mistakes an argument.
-import { PLASTIC, WALL, bounce, collide, model_form, solid_sphere } from "./coarse.mjs";
-const up = [0, 0, 1], down = [1, 0, -1], zero = [0, 0, 0], ball = solid_sphere(0.1, 1);
+import { PLASTIC, WALL, bounce, collide, model_form, solid_sphere_by_mass } from "./coarse.mjs";
+const up = [0, 0, 1], down = [1, 0, -1], zero = [0, 0, 0], ball = solid_sphere_by_mass(0.1, 1);
 const pair = { friction: 0.3, stiffness_ratio: 1.2, restitution: 0.8, loss: PLASTIC };
 const law = { friction: 0.3, stiffness_ratio: 1.2, effective_modulus: 1e9 };
 const message = (work) => {

@@ -212,12 +212,12 @@ class PlasticMotion(NormalMotion):
 
         def rise(which: Any, depth: Array) -> tuple[Array]:
             chosen = loading.take(which)
-            _, v, force = chosen.at(depth)
+            v, force = chosen.motion(depth)
             pull, change = chosen.pull(depth, law.FLOW)
             return (zeta2[which] * change * v**2 - force * (zeta2[which] * pull - beta[which]),)
 
         depth = roots.crossing(rise, loading.yields, loading.largest_approach())
-        _, v, _ = loading.at(depth)
+        v, _ = loading.motion(depth)
         in_loading = beta - v * (beta - zeta2 * loading.pull(depth, law.FLOW)[0])
         limit[sticks] = np.maximum(limit[sticks], in_loading)
         return limit

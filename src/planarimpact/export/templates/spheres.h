@@ -4,7 +4,7 @@
  * A ball that bounces on a floor at rest (z is up; metres, kilograms, radians, seconds):
  *   #include "spheres.h"
  *
- *   struct spheres_body ball = spheres_solid_sphere(0.03, 0.1); // radius, mass
+ *   struct spheres_body ball = spheres_solid_sphere_by_mass(0.03, 0.1);
  *   struct spheres_pair rubber = {
  *       .friction = 0.8, .stiffness_ratio = 1.5, .restitution = 0.9, .loss = SPHERES_VISCOUS};
  *   struct spheres_vector up = {0, 0, 1}, velocity = {3, 0, -4}, spin = {0, -50, 0};
@@ -166,8 +166,10 @@ static inline double spheres_sticking(
 
 static inline struct spheres_spot spheres_find(double y, double b, double e, int loss)
 {
-    const double least = SPHERES_E_LEAST, unit = SPHERES_UNIT;
-    double u = (b - SPHERES_B_LEAST) / SPHERES_B_SPAN, at = u * SPHERES_INTERVALS, t, over, across;
+    const double least = SPHERES_E_LEAST_PLASTIC, unit = SPHERES_UNIT;
+    double u = loss == SPHERES_VISCOUS ? (b - SPHERES_B_LEAST_VISCOUS) / SPHERES_B_SPAN_VISCOUS
+        : (b - SPHERES_B_LEAST_PLASTIC) / SPHERES_B_SPAN_PLASTIC;
+    double at = u * SPHERES_INTERVALS, t, over, across;
     double edge[6] = {0}, varying[2] = {0}, low, high, width, s, alike = b + e * (b - 1);
     const double *limit = spheres_limits + spheres_index(at, SPHERES_INTERVALS);
     const double *above = limit + SPHERES_INTERVALS + 1;
@@ -179,7 +181,7 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
     const int *patch;
     struct spheres_spot spot;
     if (which == 0)
-        t = (e - least) / SPHERES_E_SPAN;
+        t = (e - SPHERES_E_LEAST_VISCOUS) / (1 - SPHERES_E_LEAST_VISCOUS);
     else if (which == 1)
         t = 1 - sqrt(spheres_clipped(least / e - least / low_e, 0, 1) / (1 - least / low_e));
     else if (which == 2)
@@ -203,8 +205,8 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
     }
     edge[1] = 1;
     if (which == 0) {
-        edge[2] = varying[0];
-        edge[3] = varying[1] < b ? varying[1] : b;
+        edge[2] = 1 + (b - 1) * varying[0];
+        edge[3] = 1 + (b - 1) * varying[1];
         edge[4] = b;
         edge[5] = alike;
     } else {
@@ -241,6 +243,13 @@ static inline struct spheres_spot spheres_find(double y, double b, double e, int
     return spot;
 }
 
+/* The least restitution of a loss in the table. */
+static inline double spheres_least_restitution(int loss)
+{
+    return loss == SPHERES_VISCOUS ? SPHERES_RESTITUTION_MIN_VISCOUS
+        : SPHERES_RESTITUTION_MIN_PLASTIC;
+}
+
 /* Whether the table has an answer. */
 static inline int spheres_covers(
     double x, double mass_ratio, double stiffness_ratio, double restitution, int loss)
@@ -250,7 +259,7 @@ static inline int spheres_covers(
         && mass_ratio >= 1 && mass_ratio <= SPHERES_MASS_RATIO_MOST
         && stiffness_ratio <= SPHERES_STIFFNESS_MOST
         && ratio >= SPHERES_RATIO_LEAST && ratio <= SPHERES_RATIO_MOST
-        && restitution >= SPHERES_RESTITUTION_MIN && restitution <= 1
+        && restitution >= spheres_least_restitution(loss) && restitution <= 1
         && (loss == SPHERES_VISCOUS || loss == SPHERES_PLASTIC);
 }
 
@@ -342,13 +351,21 @@ struct spheres_collision {
 static const struct spheres_body SPHERES_WALL = {(double)INFINITY, (double)INFINITY, 0};
 
 /* A homogeneous sphere, from its radius [m] and its mass [kg]. */
-static inline struct spheres_body spheres_solid_sphere(double radius, double mass)
+static inline struct spheres_body spheres_solid_sphere_by_mass(double radius, double mass)
 {
     struct spheres_body body = {0, 0, 0};
     body.mass = mass;
     body.gyration = radius * sqrt(0.4);
     body.radius = radius;
     return body;
+}
+
+/* A homogeneous sphere, from its radius [m] and its density [kg/m^3]. */
+static inline struct spheres_body spheres_solid_sphere_by_density(double radius, double density)
+{
+    const double volume_factor = 4.0 / 3 * 3.141592653589793;
+    return spheres_solid_sphere_by_mass(
+        radius, density * radius * radius * radius * volume_factor);
 }
 
 /* A thin hollow sphere, from its radius [m] and its mass [kg]. */
@@ -548,7 +565,9 @@ static inline const char *spheres_before(
     other_arm = other.radius / other.gyration;
     impact->beta = (1 + arm * arm) * impact->share
         + (1 + other_arm * other_arm) * impact->other_share;
-    if (!spheres_covers(0, impact->beta, pair.stiffness_ratio, 1, SPHERES_VISCOUS))
+    impact->loss = pair.loss == SPHERES_PLASTIC || pair.yield_pressure > 0
+        ? SPHERES_PLASTIC : SPHERES_VISCOUS;
+    if (!spheres_covers(0, impact->beta, pair.stiffness_ratio, 1, impact->loss))
         return "mass_ratio/stiffness_ratio: allowed is a number from "
             SPHERES_TEXT(SPHERES_RATIO_MIN) " to " SPHERES_TEXT(SPHERES_RATIO_MAX);
 
@@ -608,8 +627,6 @@ static inline const char *spheres_before(
         return "pair.relaxation_time: allowed is a number so small that e is above "
             SPHERES_TEXT(SPHERES_LEAST);
     }
-    impact->loss = pair.loss == SPHERES_PLASTIC || pair.yield_pressure > 0
-        ? SPHERES_PLASTIC : SPHERES_VISCOUS;
     if (impact->e == 1) /* nothing is lost: the table of viscous spheres is nearer */
         impact->loss = SPHERES_VISCOUS;
     impact->normal = n;
@@ -628,8 +645,8 @@ static inline const char *spheres_before(
 static inline double spheres_change(const struct spheres_impact *impact, int loss, int *regime)
 {
     double x = impact->x, beta = impact->beta, zeta2 = impact->zeta2, e = impact->e;
-    double slides = 0.0 - (1 + e) * beta;
-    int known = e >= SPHERES_RESTITUTION_MIN;
+    double slides = 0.0 - (1 + e) * beta, least = spheres_least_restitution(loss);
+    int known = e >= least;
     struct spheres_spot spot;
     *regime = SPHERES_STICK;
     if (!(x > 0))
@@ -637,7 +654,7 @@ static inline double spheres_change(const struct spheres_impact *impact, int los
     *regime = SPHERES_SLIP_THROUGHOUT;
     if (x > SPHERES_INCIDENCE_MAX || (loss == SPHERES_VISCOUS && x >= beta + e * (beta - zeta2)))
         return slides;
-    spot = spheres_find(x / zeta2, beta / zeta2, known ? e : SPHERES_RESTITUTION_MIN, loss);
+    spot = spheres_find(x / zeta2, beta / zeta2, known ? e : least, loss);
     if (known && spot.slides)
         return slides;
     *regime = !known ? SPHERES_UNRESOLVED
@@ -691,6 +708,7 @@ static inline struct spheres_collision spheres_collide(
         after.error_bound = 0;
     else if (after.regime != SPHERES_UNRESOLVED)
         after.error_bound = (impact.unit < impact.v1 ? impact.unit : impact.v1)
+            * (impact.zeta2 > SPHERES_STIFFNESS_STATED ? impact.zeta2 / SPHERES_STIFFNESS_STATED : 1)
             * (impact.loss == SPHERES_VISCOUS ? SPHERES_ERROR_VISCOUS : SPHERES_ERROR_PLASTIC);
     return after;
 }

@@ -4,7 +4,7 @@
  * A ball that bounces on a floor at rest (z is up; metres, kilograms, radians, seconds):
  *   import * as spheres from "./spheres.mjs";
  *
- *   const ball = spheres.solid_sphere(0.03, 0.1); // radius, mass
+ *   const ball = spheres.solid_sphere_by_mass(0.03, 0.1);
  *   const rubber = {
  *       friction: 0.8, stiffness_ratio: 1.5, restitution: 0.9, loss: spheres.VISCOUS };
  *   let velocity = [3, 0, -4], spin = [0, -50, 0];
@@ -12,7 +12,7 @@
  *   velocity = hit.velocity;
  *   spin = hit.spin;
  * Where there is no answer, collide, bounce and model_form throw a RangeError: it names the field,
- * its value and what is allowed.
+ * its value and what is allowed. spheres.d.mts beside this file has the types; it may be missing.
  *
  * <version>
  * Written by planarimpact $value. Do not edit it: write it anew.
@@ -131,15 +131,18 @@ function place(value, count) {
 
 // Where an impact is: what the splines need, and what follows from its edges.
 function find(y, b, e, loss) {
-    const u = (b - B_LEAST) / B_SPAN, interval = index_of(u * INTERVALS, INTERVALS);
-    const part = u * INTERVALS - interval, alike = b + e * (b - 1);
+    const viscous = loss === VISCOUS;
+    const u = viscous ? (b - B_LEAST_VISCOUS) / B_SPAN_VISCOUS
+        : (b - B_LEAST_PLASTIC) / B_SPAN_PLASTIC;
+    const interval = index_of(u * INTERVALS, INTERVALS);
+    const part = u * INTERVALS - interval, alike = b + e * (b - 1), least = E_LEAST_PLASTIC;
     const between = (k) => (1 - part) * limits[k] + part * limits[k + 1];
     const low_e = between(interval), high_e = between(interval + INTERVALS + 1);
-    const which = loss === VISCOUS ? 0 : e < low_e ? 1 : e < high_e ? 2 : 3, panel = panels[which];
+    const which = viscous ? 0 : e < low_e ? 1 : e < high_e ? 2 : 3, panel = panels[which];
     let t = 0;
-    if (which === 0) t = (e - E_LEAST) / E_SPAN;
+    if (which === 0) t = (e - E_LEAST_VISCOUS) / (1 - E_LEAST_VISCOUS);
     else if (which === 1)
-        t = 1 - Math.sqrt(clipped(E_LEAST / e - E_LEAST / low_e, 0, 1) / (1 - E_LEAST / low_e));
+        t = 1 - Math.sqrt(clipped(least / e - least / low_e, 0, 1) / (1 - least / low_e));
     else if (which === 2) t = (e - low_e) / (high_e - low_e);
     else t = Math.sqrt(Math.sqrt((1 - e) / (1 - high_e)));
 
@@ -158,7 +161,7 @@ function find(y, b, e, loss) {
     }
     const third = which === 3 ? b : varying[0];
     const edge = which === 0
-        ? [0, 1, varying[0], Math.min(varying[1], b), b, alike]
+        ? [0, 1, 1 + (b - 1) * varying[0], 1 + (b - 1) * varying[1], b, alike]
         : [0, 1, (1 + third) / 2, third, which === 1 ? varying[1] : alike];
 
     // The patch, and s in it.
@@ -212,20 +215,17 @@ function sticking(spot, x, zeta2, sliding) {
     return clipped(zeta2 * share + 0, sliding > 0 - x ? sliding : 0 - x, x);
 }
 
-/**
- * Whether the table has an answer.
- * @param {number} x
- * @param {number} mass_ratio
- * @param {number} stiffness_ratio
- * @param {number} restitution
- * @param {number} loss
- * @returns {boolean}
- */
+// The least restitution of a loss in the table.
+function least_restitution(loss) {
+    return loss === VISCOUS ? RESTITUTION_MIN_VISCOUS : RESTITUTION_MIN_PLASTIC;
+}
+
+// Whether the table has an answer.
 export function covers(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const ratio = mass_ratio / stiffness_ratio;
     return Math.abs(x) <= INCIDENCE_MAX && mass_ratio >= 1 && mass_ratio <= MASS_RATIO_MOST
         && stiffness_ratio <= STIFFNESS_MOST && ratio >= RATIO_LEAST && ratio <= RATIO_MOST
-        && restitution >= RESTITUTION_MIN && restitution <= 1
+        && restitution >= least_restitution(loss) && restitution <= 1
         && (loss === VISCOUS || loss === PLASTIC);
 }
 
@@ -234,15 +234,7 @@ function directed(velocity, x) {
     return x < 0 || Object.is(x, -0) ? -velocity : velocity;
 }
 
-/**
- * Tangential velocity of the contact point at separation.
- * @param {number} x incidence, v1(0)/(mu v2(0))
- * @param {number} mass_ratio
- * @param {number} stiffness_ratio
- * @param {number} restitution
- * @param {number} loss VISCOUS or PLASTIC
- * @returns {number} v1(tf)/(mu v2(0)); NaN out of range
- */
+// Tangential velocity of the contact point at separation.
 export function velocity(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const size = Math.abs(x), beta = mass_ratio, zeta2 = stiffness_ratio, e = restitution;
     if (!covers(x, beta, zeta2, e, loss)) return NaN;
@@ -251,23 +243,7 @@ export function velocity(x, mass_ratio, stiffness_ratio, restitution, loss) {
     return directed(spot.slides ? sliding : sticking(spot, size, zeta2, sliding), x);
 }
 
-/**
- * @typedef {object} Result
- * @property {number} velocity
- * @property {number} peak_friction
- * @property {number} dissipation
- * @property {number} regime
- */
-
-/**
- * The state at separation.
- * @param {number} x incidence, v1(0)/(mu v2(0))
- * @param {number} mass_ratio
- * @param {number} stiffness_ratio
- * @param {number} restitution
- * @param {number} loss VISCOUS or PLASTIC
- * @returns {Result} NaN, and UNRESOLVED, out of range
- */
+// The state at separation.
 export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
     const size = Math.abs(x), beta = mass_ratio, zeta2 = stiffness_ratio, e = restitution;
     let velocity = NaN, peak_friction = NaN, dissipation = NaN, regime = UNRESOLVED;
@@ -294,54 +270,21 @@ export function rebound(x, mass_ratio, stiffness_ratio, restitution, loss) {
     return { velocity: directed(velocity, x), peak_friction, dissipation, regime };
 }
 
-/**
- * @typedef {number[]} Vector x, y and z
- *
- * @typedef {object} Body
- * @property {number} mass
- * @property {number} gyration
- * @property {number} radius
- *
- * @typedef {object} Pair
- * @property {number} friction
- * @property {number} stiffness_ratio
- * @property {number} [restitution]
- * @property {number} [loss]
- * @property {number} [relaxation_time]
- * @property {number} [yield_pressure]
- * @property {number} [effective_modulus]
- *
- * @typedef {object} Collision
- * @property {Vector} velocity
- * @property {Vector} spin
- * @property {Vector} other_velocity
- * @property {Vector} other_spin
- * @property {Vector} impulse
- * @property {number} incidence
- * @property {number} restitution
- * @property {number} error_bound
- * @property {number} regime
- */
-
-/** A flat body that neither moves nor turns by an impact; it may have a velocity. */
+// A flat body that neither moves nor turns by an impact; it may have a velocity.
 export const WALL = { mass: Infinity, gyration: Infinity, radius: 0 };
 
-/**
- * A homogeneous sphere.
- * @param {number} radius [m]
- * @param {number} mass [kg]
- * @returns {Body}
- */
-export function solid_sphere(radius, mass) {
+// A homogeneous sphere, from its radius [m] and its mass [kg].
+export function solid_sphere_by_mass(radius, mass) {
     return { mass, gyration: radius * Math.sqrt(0.4), radius };
 }
 
-/**
- * A thin hollow sphere.
- * @param {number} radius [m]
- * @param {number} mass [kg]
- * @returns {Body}
- */
+// A homogeneous sphere, from its radius [m] and its density [kg/m^3].
+export function solid_sphere_by_density(radius, density) {
+    const mass = density * radius * radius * radius * (4 / 3 * Math.PI);
+    return solid_sphere_by_mass(radius, mass);
+}
+
+// A thin hollow sphere, from its radius [m] and its mass [kg].
 export function thin_shell(radius, mass) {
     return { mass, gyration: radius * Math.sqrt(2 / 3), radius };
 }
@@ -386,14 +329,7 @@ function knows_loss(loss, restitution) {
     return loss === VISCOUS || loss === PLASTIC || (loss === 0 && restitution === 1);
 }
 
-/**
- * Restitution of a pair at a normal speed.
- * @param {Pair} pair
- * @param {number} mass effective mass m2, 1/m2 = 1/M + 1/M' [kg]
- * @param {number} radius effective radius R, 1/R = 1/r + 1/r' [m]
- * @param {number} speed [m/s]
- * @returns {number} NaN if the pair is not complete
- */
+// Restitution of a pair at a normal speed.
 export function restitution_at(pair, mass, radius, speed) {
     const { loss = 0, relaxation_time = 0, yield_pressure = 0 } = pair;
     const { restitution: fixed = loss === 0 ? 0 : NaN } = pair;
@@ -575,29 +511,17 @@ function before(pair, normal, body, velocity, spin, other, other_velocity, other
 
 // What an impact of this loss adds to x, the tangential velocity, and its regime.
 function change({ x, beta, zeta2, e }, loss) {
-    const slides = 0 - (1 + e) * beta, known = e >= RESTITUTION_MIN;
+    const slides = 0 - (1 + e) * beta, least = least_restitution(loss), known = e >= least;
     if (!(x > 0)) return { added: 0, regime: STICK };
     if (x > INCIDENCE_MAX || (loss === VISCOUS && x >= beta + e * (beta - zeta2)))
         return { added: slides, regime: SLIP_THROUGHOUT };
-    const spot = find(x / zeta2, beta / zeta2, known ? e : RESTITUTION_MIN, loss);
+    const spot = find(x / zeta2, beta / zeta2, known ? e : least, loss);
     if (known && spot.slides) return { added: slides, regime: SLIP_THROUGHOUT };
     const regime = !known ? UNRESOLVED : x > zeta2 ? SLIP_STICK_SLIP : STICK_SLIP;
     return { added: spot.slides ? slides : sticking(spot, x, zeta2, x + slides) - x, regime };
 }
 
-/**
- * The collision of two bodies, or of one with a wall.
- * @param {Pair} pair
- * @param {Vector} normal from the other body to the body, of length 1
- * @param {Body} body
- * @param {Vector} velocity [m/s]
- * @param {Vector} spin [rad/s]
- * @param {Body} other
- * @param {Vector} other_velocity [m/s]
- * @param {Vector} other_spin [rad/s]
- * @returns {Collision}
- * @throws {RangeError} for bad arguments, and bodies and materials beyond the table
- */
+// The collision of two bodies, or of one with a wall.
 export function collide(
     pair, normal, body, velocity, spin, other, other_velocity, other_spin
 ) {
@@ -627,6 +551,7 @@ export function collide(
     const other_turned =
         twist * impact.other_share * (other.radius / other.gyration) / other.gyration;
     let error_bound = Math.min(impact.unit, impact.v1)
+        * Math.max(impact.zeta2 / STIFFNESS_STATED, 1)
         * (impact.loss === VISCOUS ? ERROR_VISCOUS : ERROR_PLASTIC);
     if (regime === STICK || regime === SLIP_THROUGHOUT) error_bound = 0;
     else if (regime === UNRESOLVED) error_bound = NaN;
@@ -643,26 +568,12 @@ export function collide(
     };
 }
 
-/**
- * The collision of a body with a surface at rest.
- * @param {Pair} pair
- * @param {Vector} normal out of the surface, of length 1
- * @param {Body} body
- * @param {Vector} velocity [m/s]
- * @param {Vector} spin [rad/s]
- * @returns {Collision}
- * @throws {RangeError} as `collide`
- */
+// The collision of a body with a surface at rest.
 export function bounce(pair, normal, body, velocity, spin) {
     return collide(pair, normal, body, velocity, spin, WALL, [0, 0, 0], [0, 0, 0]);
 }
 
-/**
- * How far the velocity of the contact point after the impact would move with the other loss.
- * @param {Parameters<typeof collide>} contact the arguments of `collide`
- * @returns {number} [m/s]; NaN where the contact sticks below RESTITUTION_MIN, or without impact
- * @throws {RangeError} as `collide`
- */
+// How far the velocity of the contact point after the impact would move with the other loss.
 export function model_form(...contact) {
     const impact = before(...contact);
     if (!impact) return NaN;
@@ -672,10 +583,7 @@ export function model_form(...contact) {
     return impact.unit * Math.abs(viscous.added - plastic.added);
 }
 
-/**
- * Bodies with their pairs of materials, and the sources of the numbers.
- * @type {Record<string, { body: Body, pair: Pair }>}
- */
+// Bodies with their pairs of materials, and the sources of the numbers.
 export const presets = {
 /* <presets> */
 /*

@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -84,7 +84,7 @@ def curves(points: Mapping[str, Sequence[float]], most_frequency: float) -> Tabl
     return tables.join(tables.curve(own, "lumped", variant) for variant, own in variants.items())
 
 
-def _solved(solve: Callable[..., Sequence[Array]], groups: Array, count: int) -> Array:
+def _solved(solve: Callable[..., Sequence[Any]], groups: Array, count: int) -> Array:
     """Outputs of impacts, shape (count, n); NaN only for those that raise or warn."""
     outputs = _attempt(lambda: np.stack(solve(*groups)))
     if outputs is not None:

@@ -185,14 +185,14 @@ def _spline_of_continuum(groups: Mapping[str, Any], incidence_max: float) -> _So
     solved = continuum.rebound(knots, **groups, tolerance=SPLINE_TOLERANCE)
     spline = PchipInterpolator(knots, solved.velocity)
 
-    def rebound(x: Array) -> Rebound:
+    def rebound(x: Array) -> Rebound[Any, Any, Any]:
         unknown = np.full_like(x, np.nan)
         return Rebound(spline(x), unknown, unknown, unknown)
 
     return rebound
 
 
-def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: str) -> Rebound:
+def reference(x: Array, groups: Mapping[str, float], tolerance: float, loss: Any) -> Rebound:
     """What errors are measured against. The `loss`, viscous or plastic, has no meaning for e = 1.
 
     >>> groups = {"mass_ratio": 3.5, "stiffness_ratio": 1.21, "restitution": 0.5}
@@ -215,7 +215,8 @@ def input_spread(x: Array, groups: dict[str, float], loss: str) -> Array:
     """
     loss = loss or losses.VISCOUS.name
     lowest = groups | {"restitution": groups["restitution"] - 2 * models.RESTITUTION_ERROR}
-    if spheres.covers(**lowest):
+    order = "mass_ratio", "stiffness_ratio", "restitution"
+    if spheres.covers(*(lowest[name] for name in order)):
         return models.input_spread(f"spheres.{loss}", x, **groups)
     return models.input_spread(f"continuum.{loss}", x, **groups, tolerance=SPREAD_TOLERANCE)
 
