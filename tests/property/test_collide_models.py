@@ -245,6 +245,8 @@ CAUTIONS = [
     ((RUBBER,), {"friction": 0.1, "restitution": 0.9, "loss": "viscous"}, "lumped.hysteretic", 9),
     ((RUBBER,), {"friction": 0.1, "restitution": 0.9, "loss": "viscous"}, "lumped.viscous", 8),
     ((RUBBER,), {"friction": 0.1, "restitution": 0.9, "loss": "viscous"}, "spheres.viscous", 0),
+    ((RUBBER,), {"friction": 0.1, "restitution": 0.9, "loss": "hysteretic"}, "rigid", 8),
+    ((RUBBER,), {"friction": 0.1, "restitution": 0.9, "loss": "hysteretic"}, "laws.brach", 8),
 ]
 
 

@@ -311,7 +311,6 @@ def _collide_arrays(
     whole = partial(_whole, approach, given.v2.size, shape)
     numbers = Impacts._make([None] * 6 + [*met[6:]])  # in less memory, also where it is pickled
     asked = [model] if model else [*off_centre.LUMPED.values()] if plane else []
-    micro_slip = model is not None and methods.has_micro_slip(model)
     facts = partial(
         Facts,
         whole,
@@ -320,7 +319,7 @@ def _collide_arrays(
         answer.change,
         answer.regime,
         tuple(one.name for one in asked),
-        micro_slip,
+        methods.spared(model) if model else Caution.NONE,
         energies,
         solve=solve,
     )

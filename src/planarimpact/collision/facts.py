@@ -36,8 +36,8 @@ class Facts(NamedTuple):
         As in `methods.Answers`.
     asked : tuple of str
         Names of the models that were asked for.
-    micro_slip : bool
-        Whether the model that was asked for has it.
+    spared : Caution
+        Those that do not concern the model that was asked for.
     energies : tuple of ndarray, shape (n,), or None
         Lost along the normal and along the surface [J], where `mechanics` does not know it.
     form : ndarray or None
@@ -52,7 +52,7 @@ class Facts(NamedTuple):
     change: Array
     regime: Integers
     asked: tuple[str, ...] = ()
-    micro_slip: bool = False
+    spared: Caution = Caution.NONE
     energies: tuple[Array, Array] | None = None
     form: Array | None = None
     solve: bool = True
@@ -70,7 +70,7 @@ class Facts(NamedTuple):
 
     def caution(self) -> Any:
         """Codes of `Caution`."""
-        codes = cautions(self.impacts, self.place, self.regime, self.micro_slip)
+        codes = cautions(self.impacts, self.place, self.regime, self.spared)
         codes = self.whole(codes, 0)
         return codes if codes.ndim else Caution(int(codes))
 
@@ -81,7 +81,7 @@ class Facts(NamedTuple):
 
 
 def cautions(
-    impacts: Impacts, place: Integers, regime: Integers, micro_slip: bool = False
+    impacts: Impacts, place: Integers, regime: Integers, spared: Caution = Caution.NONE
 ) -> Integers:
     """Codes of `Caution`, shape (n,).
 
@@ -91,6 +91,6 @@ def cautions(
     sticks = moves & (regime != Regime.SLIP_THROUGHOUT)
     dissimilar = impacts.dundurs > bodies.COUPLING * impacts.friction
     codes = Caution.codes(impacts.loss_code, impacts.friction, impacts.restitution, dissimilar)
-    bare = ~(methods.IS_CONTINUUM[place] | micro_slip)
-    codes = np.where(sticks, codes + Caution.NO_MICRO_SLIP * bare, codes & Caution.FRICTION)
+    codes = codes + Caution.NO_MICRO_SLIP * ~methods.IS_CONTINUUM[place]
+    codes = np.where(sticks, codes & ~spared, codes & Caution.FRICTION)
     return np.where(moves, codes, 0)

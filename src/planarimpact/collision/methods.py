@@ -15,8 +15,9 @@ from planarimpact import continuum, models, spheres
 from planarimpact.collision.mechanics import Impacts, slides_throughout
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.cautions import Caution
 from planarimpact.common.checks import ConvergenceError, InputError
-from planarimpact.common.losses import BY_NAME, CODES, NAMES, PLASTIC, SPHERES, Loss
+from planarimpact.common.losses import CODE_OF, CODES, NAMES, PLASTIC, SPHERES, Loss
 from planarimpact.common.results import Rebound, Regime
 
 # Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
@@ -188,19 +189,25 @@ def has_micro_slip(model: models.Model) -> bool:
     return models.MODELS.get(model.name) is model and model.name.startswith(CONTINUA)
 
 
+def spared(model: models.Model) -> Caution:
+    """Cautions that do not concern a model: it has micro-slip, or no law of the loss."""
+    micro_slip = Caution.NO_MICRO_SLIP if has_micro_slip(model) else Caution.NONE
+    return micro_slip | (Caution.NONE if model.loss in CODE_OF else Caution.RESTITUTION)
+
+
 def lost_by(model: models.Model, loss_code: Integers) -> tuple[Integers, dict[int, str]]:
     """Codes of the losses of impacts by a model, and `{index: message}` where a pair contradicts.
 
     A pair's own loss counts where the model has none, or any. The losses of spheres are those of
     materials, so that one of them does not stand for another; an element of the paper may.
     """
-    if model.loss not in BY_NAME:
+    if model.loss not in CODE_OF:
         return loss_code, {}
-    code = [*BY_NAME].index(model.loss)
+    code = CODE_OF[model.loss]
     wrong = np.flatnonzero((loss_code >= 0) & (loss_code != code) & (model.loss in SPHERES))
     said = "loss = '{}': the loss of {} is {}; choose a model with the loss of the pair"
     messages = {i: said.format(NAMES[loss_code[i]], model.name, model.loss) for i in wrong.tolist()}
-    return np.where(loss_code >= 0, np.int8(code), loss_code), messages
+    return np.where(loss_code >= 0, code, loss_code), messages
 
 
 def first_refused(

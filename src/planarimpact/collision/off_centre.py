@@ -21,7 +21,7 @@ from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import InputError, OutOfRange
-from planarimpact.common.losses import BY_NAME, NAMES, NONCOLLINEAR
+from planarimpact.common.losses import CODE_OF, NAMES, NONCOLLINEAR
 from planarimpact.common.results import Regime
 from planarimpact.models import MODELS, Model
 from planarimpact.noncollinear import InverseMass, NoncollinearRebound
@@ -30,7 +30,6 @@ from planarimpact.noncollinear import InverseMass, NoncollinearRebound
 LUMPED = {name: MODELS[f"lumped.{name}"] for name in NONCOLLINEAR}
 CHOICES = (*LUMPED.values(), MODELS["rigid"])
 ALLOWED = f"allowed is {' or '.join(LUMPED)}"
-UNLOADING = [*BY_NAME].index("unloading-stiffness")
 GIVEN_UP = "the solver of bodies off their centre gave up; see noncollinear.rebound"
 # Share of a vector that may be out of the plane.
 OUT = checks.LENGTH_ERROR
@@ -138,7 +137,7 @@ def answers(
     velocity, friction, push, normal_loss, work = fields
     place, error = np.full(count, methods.ASKED), np.full(count, np.nan)
     if model is None:
-        place += impacts.loss_code == UNLOADING
+        place += impacts.loss_code == CODE_OF["unloading-stiffness"]
     regime = np.full(count, Regime.UNRESOLVED, np.uint8)
     result = Answers(place, np.zeros(count), velocity, error, regime, error, {}, {})
     names = np.where(impacts.loss_code < 0, "hysteretic", NAMES[impacts.loss_code])

@@ -22,7 +22,9 @@ from planarimpact.collision.methods import ASKED, HEAD_ON, METHODS, SLIDING, tab
 from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks, losses
 from planarimpact.common.arrays import Integers
+from planarimpact.common.cautions import Caution
 from planarimpact.common.checks import LARGEST, LARGEST_RATIO, LEAST, LEAST_RATIO
+from planarimpact.common.losses import CODE_OF, NONE
 from planarimpact.common.results import Regime
 from planarimpact.lumped import one_impact
 from planarimpact.models import Model
@@ -34,19 +36,15 @@ from planarimpact.spheres import table
 UNSURE = 0.01
 PLAIN = frozenset((float, int))  # types of plain numbers
 PLASTIC = losses.CODES[losses.PLASTIC]
-NONE: Integers = np.array(-1, np.int8)
 # Places of the table of spheres by the code of the loss.
 TABLED = [
     next(i for i, method in enumerate(METHODS) if method.way == "table" and method.loss is loss)
     for loss in (*losses.SPHERES.values(), None)
 ]
-# Models with a way of their own here, and codes of losses by name.
+# Models with a way of their own here.
 RIGID = models.MODELS["rigid"]
 LUMPED = [models.MODELS[f"lumped.{name}"] for name in ("hysteretic", "unloading-stiffness")]
 BY_MODEL = [RIGID, *LUMPED]
-CODES: dict[str, Integers] = {
-    name: np.array(code, np.int8) for code, name in enumerate(losses.BY_NAME)
-}
 
 
 def facts(
@@ -75,7 +73,8 @@ def facts(
         form = np.array(abs(other[0] - change)) if other else None
     answer = np.array([place]), np.array([change]), np.array([regime])
     whole = _none if regime == Regime.NO_IMPACT else _only
-    return Facts(whole, impacts, *answer, asked, form=form, solve=solve)
+    spared = Caution.RESTITUTION if asked == (RIGID.name,) else Caution.NONE
+    return Facts(whole, impacts, *answer, asked, spared, form=form, solve=solve)
 
 
 def _only(values: Any, _: Any) -> Any:
@@ -149,7 +148,7 @@ def collide(
         return []
     loss_code, asked = NONE, (model.name,) if model else ()
     if e < 1:
-        loss_code = CODES.get(model.loss, pair.loss_code) if model else pair.loss_code
+        loss_code = CODE_OF.get(model.loss, pair.loss_code) if model else pair.loss_code
     if not (v1 and mu):
         regime = Regime.SLIP_THROUGHOUT if v1 else Regime.STICK
         answer = (0.0, 0.0, regime) if 0 <= e <= 1 else None

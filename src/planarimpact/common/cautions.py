@@ -11,7 +11,7 @@ from enum import IntFlag
 import numpy as np
 
 from planarimpact.common.arrays import Array, ArrayLike, Integers
-from planarimpact.common.losses import BY_NAME
+from planarimpact.common.losses import BY_NAME, CODE_OF, NONE
 from planarimpact.common.records import Members
 
 # By the code of a loss, the last one where nothing is lost.
@@ -29,6 +29,7 @@ class Caution(IntFlag, metaclass=Members):
 strength of the surface, and solid spheres are off by up to 0.9 mu v2(0)
     """
 
+    NONE = 0
     RESTITUTION = 1
     FRICTION = 2
     DISSIMILAR = 4
@@ -44,8 +45,8 @@ strength of the surface, and solid spheres are off by up to 0.9 mu v2(0)
         cls, loss: str | None, friction: float, restitution: float, dissimilar: bool = False
     ) -> Caution:
         """That of one pair of materials that sticks at some time; there may be no such loss."""
-        code = [*BY_NAME].index(loss) if loss in BY_NAME and restitution < 1 else -1
-        return cls(int(cls.codes(np.array(code), friction, restitution, dissimilar)))
+        code = CODE_OF.get(loss or "", NONE) if restitution < 1 else NONE
+        return cls(int(cls.codes(code, friction, restitution, dissimilar)))
 
     @classmethod
     def codes(

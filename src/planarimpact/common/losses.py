@@ -122,3 +122,7 @@ VISCOUS, PLASTIC = SPHERES["viscous"], SPHERES["plastic"]
 BY_NAME = SPHERES | {name: loss for name, loss in LUMPED.items() if name not in SPHERES}
 NAMES = np.array([*BY_NAME, "none"])
 CODES = {loss: code for code, loss in enumerate(SPHERES.values())}
+CODE_OF: dict[str, NDArray[np.integer[Any]]] = {
+    name: np.array(code, np.int8) for code, name in enumerate(BY_NAME)
+}
+NONE: NDArray[np.integer[Any]] = np.array(-1, np.int8)
