@@ -382,7 +382,9 @@ def _parser() -> argparse.ArgumentParser:
         "--friction: how far each is from the continuum, and how long it takes.",
     )
     named: dict[str, Any] = {"type": _material, "metavar": "NAME"}
-    names = f"{', '.join(models.materials())}, or E,NU: Young's modulus [Pa] and Poisson's ratio"
+    # Their table is not read for the help of every command: that takes longer than the parser.
+    names = "a name such as nylon or steel, of which a wrong one lists all, or E,NU: Young's "
+    names += "modulus [Pa] and Poisson's ratio"
     compared.add_argument("--material", **named, help=f"of the sphere: {names}")
     compared.add_argument("--on", **named, help="of what it strikes, likewise [a rigid body]")
     compared.add_argument("--friction", type=_decimal, help="mu, above 0")

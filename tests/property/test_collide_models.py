@@ -28,7 +28,7 @@ QUICK.remove("lumped")  # for e = 1 alone
 COUNT = 4000
 
 
-def arguments_of(loss, seed=1, walls_rest=True):
+def arguments_of(loss, seed=1):
     """Random impacts of one loss with e at least 0.3."""
     pair, *others = random_impacts(COUNT, seed)
     rng = np.random.default_rng(seed)

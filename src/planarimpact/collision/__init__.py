@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from planarimpact import bodies, models
 from planarimpact.bodies import Body
 from planarimpact.collision import methods, off_centre, one_impact
-from planarimpact.collision.facts import Facts
+from planarimpact.collision.facts import Facts, in_shape
 from planarimpact.collision.mechanics import (
     Impacts,
     State,
@@ -308,7 +308,7 @@ def _collide_arrays(
     _refuse(answer.refused, shape, approach)
     for i, problem in answer.unsolved.items():
         raise Unsolved(f"{_place(approach[i], shape)}{problem}", approach[[i]])
-    whole = partial(_whole, approach, given.v2.size, shape)
+    whole = partial(in_shape, approach, given.v2.size, shape)
     numbers = Impacts._make([None] * 6 + [*met[6:]])  # in less memory, also where it is pickled
     asked = [model] if model else [*off_centre.LUMPED.values()] if plane else []
     facts = partial(
@@ -341,8 +341,7 @@ def _refuse_models(model: Model | None, solve: bool, has_offset: bool) -> None:
     if model and has_offset and model not in off_centre.CHOICES:
         names = ", ".join(choice.name for choice in off_centre.CHOICES)
         raise InputError(f"model = '{model.name}': with an offset allowed are {names}")
-    solved = model and methods.has_micro_slip(model) and model.name.startswith("continuum")
-    if model and solved and not solve:
+    if model and not solve and methods.is_solved(model):
         raise InputError(f"solve = False: model = '{model.name}' is solved; allowed are others")
 
 
@@ -402,13 +401,3 @@ def _collision(
         loss_code=whole(met.loss_code, -1),
         _facts=facts,
     )
-
-
-def _whole(approach: Integers, count: int, shape: tuple[int, ...], values: Any, before: Any) -> Any:
-    """Values of impacts, and those before where bodies do not approach, in the given shape."""
-    if approach.size < count:
-        everywhere = np.empty((*values.shape[:-1], count), values.dtype)
-        everywhere[:] = before
-        everywhere[..., approach] = values
-        values = everywhere
-    return values.T.reshape((*shape, *values.shape[:-1]))[()]

@@ -94,3 +94,15 @@ def cautions(
     codes = codes + Caution.NO_MICRO_SLIP * ~methods.IS_CONTINUUM[place]
     codes = np.where(sticks, codes & ~spared, codes & Caution.FRICTION)
     return np.where(moves, codes, 0)
+
+
+def in_shape(
+    approach: Integers, count: int, shape: tuple[int, ...], values: Any, before: Any
+) -> Any:
+    """Values of impacts, and those before where bodies do not approach, in the given shape."""
+    if approach.size < count:
+        everywhere = np.empty((*values.shape[:-1], count), values.dtype)
+        everywhere[:] = before
+        everywhere[..., approach] = values
+        values = everywhere
+    return values.T.reshape((*shape, *values.shape[:-1]))[()]

@@ -151,7 +151,7 @@ def answers_of(model: models.Model, impacts: Impacts, tolerance: float) -> Answe
     plastic = impacts.loss_code[rows] == CODES[PLASTIC]
     if has_micro_slip(model):
         error = table_error(spheres.error_bound(*groups, plastic), groups[0], x)
-        if model.name.startswith("continuum"):
+        if is_solved(model):
             error = settings["tolerance"] = _tolerance(x, tolerance)
         result.error[rows] = error * impacts.unit[rows]
 
@@ -166,15 +166,8 @@ def answers_of(model: models.Model, impacts: Impacts, tolerance: float) -> Answe
         first, said = beyond[0], f"{model.name}: restitution = {e[beyond[0]]}: {allowed}"
         result.refused[int(rows[first])] = said
         return result
-    try:
-        found = rebound(slice(None))
-    except continuum.Unsolved as failed:
-        result.unsolved[int(rows[failed.impacts[0]])] = f"{model.name}: {failed}"
-        return result
-    except (InputError, ConvergenceError) as failed:
-        first, message = first_refused(rebound, rows.size, str(failed))
-        problems = result.refused if isinstance(failed, InputError) else result.unsolved
-        problems[int(rows[first])] = f"{model.name}: {message}"
+    found = tried(rebound, rows, result, f"{model.name}: ")
+    if not found:
         return result
     slides = found.regime == Regime.SLIP_THROUGHOUT
     fall, velocity = sliding.change(*groups[::2]), found.velocity * impacts.unit[rows]
@@ -187,6 +180,11 @@ def answers_of(model: models.Model, impacts: Impacts, tolerance: float) -> Answe
 def has_micro_slip(model: models.Model) -> bool:
     """Whether a model is the continuum, solved or from its table."""
     return models.MODELS.get(model.name) is model and model.name.startswith(CONTINUA)
+
+
+def is_solved(model: models.Model) -> bool:
+    """Whether a model is the continuum, solved to a tolerance."""
+    return has_micro_slip(model) and model.name.startswith("continuum")
 
 
 def spared(model: models.Model) -> Caution:
@@ -210,11 +208,22 @@ def lost_by(model: models.Model, loss_code: Integers) -> tuple[Integers, dict[in
     return np.where(loss_code >= 0, code, loss_code), messages
 
 
-def first_refused(
-    rebound: Callable[[slice | int], Rebound], count: int, message: str
-) -> tuple[int, str]:
-    """Index of the first of several impacts that a model refuses, and what it says of it alone."""
-    low, high = 0, count
+def tried(
+    rebound: Callable[[slice | int], Any], rows: Integers, result: Answers, who: str = ""
+) -> Any:
+    """What a model answers to all rows; or None, and what it says of the first that it refuses.
+
+    That goes into the result. The first is found by halves, and answered alone, as the model does
+    not know its index.
+    """
+    try:
+        return rebound(slice(None))
+    except continuum.Unsolved as error:
+        result.unsolved[int(rows[error.impacts[0]])] = f"{who}{error}"
+        return None
+    except (InputError, ConvergenceError) as error:
+        refused = error
+    low, high = 0, rows.size
     while high - low > 1:
         middle = (low + high) // 2
         try:
@@ -225,8 +234,10 @@ def first_refused(
     try:
         rebound(low)
     except (InputError, ConvergenceError) as error:
-        message = str(error)
-    return low, message
+        refused = error
+    problems = result.refused if isinstance(refused, InputError) else result.unsolved
+    problems[int(rows[low])] = f"{who}{refused}"
+    return None
 
 
 def _by_formulas(impacts: Impacts, place: Integers, error: Array) -> Answers:

@@ -20,7 +20,7 @@ from planarimpact.collision.methods import Answers
 from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, Integers
-from planarimpact.common.checks import InputError, OutOfRange
+from planarimpact.common.checks import OutOfRange
 from planarimpact.common.losses import CODE_OF, NAMES, NONCOLLINEAR
 from planarimpact.common.results import Regime
 from planarimpact.models import MODELS, Model
@@ -67,7 +67,7 @@ def impacts(
     anywhere = np.eye(3)[:, np.argmin(np.abs(normal), axis=0)]
     # Lengths and speeds that count, so that rounding of what is 0 does not make a plane.
     length = np.max([_size(arm), _size(other_arm)], axis=0)
-    speed = np.sum([_size(vector) for vector in (*before[:1], *other_before[:1])], axis=0)
+    speed = _size(before.velocity) + _size(other_before.velocity)
     speed = speed + length * (_size(before.spin) + _size(other_before.spin))
     for vector, least in (
         (offset, OUT * length),
@@ -86,31 +86,24 @@ def impacts(
     checks.in_range("normal velocity of approach", np.where(v2 > 0, v2, 1.0))
     surface = "along the surface; the radius is the part along the normal"
     plane, axis = (f"{where} the plane of offset and normal" for where in ("in", "across"))
-    spin, other_spin = length * before.spin, length * other_before.spin
-    for name, vector, out, scale, allowed in (
-        ("offset", offset, normal, length, surface),
-        ("other_offset", other_offset, normal, length, surface),
-        ("other_offset", other_offset, across, length, plane),
-        ("velocity - other_velocity", approach, across, speed, plane),
-        ("spin", spin, along, speed, axis),
-        ("spin", spin, normal, speed, axis),
-        ("other_spin", other_spin, along, speed, axis),
-        ("other_spin", other_spin, normal, speed, axis),
+    for name, vector, out, arms, scale, allowed in (
+        ("offset", offset, normal, 1.0, length, surface),
+        ("other_offset", other_offset, normal, 1.0, length, surface),
+        ("other_offset", other_offset, across, 1.0, length, plane),
+        ("velocity - other_velocity", approach, across, 1.0, speed, plane),
+        ("spin", before.spin, along, length, speed, axis),
+        ("spin", before.spin, normal, length, speed, axis),
+        ("other_spin", other_before.spin, along, length, speed, axis),
+        ("other_spin", other_before.spin, normal, length, speed, axis),
     ):
         # Bodies that do not approach are left as they are.
-        wrong = np.flatnonzero((v2 > 0) & ~(np.abs(dot(vector, out)) <= OUT * scale))
+        wrong = np.flatnonzero((v2 > 0) & ~(arms * np.abs(dot(vector, out)) <= OUT * scale))
         if wrong.size:
-            given = vector / length if "spin" in name else vector
             said = f"{name} = {{}}: allowed is a vector {allowed}"
-            raise OutOfRange({i: said.format(given[:, i].tolist()) for i in wrong.tolist()})
-    inverse_mass = [np.zeros_like(body.radius)] * 3
-    for one, lever, depth in ((body, offset, body.radius), (other, other_offset, -other.radius)):
-        far, deep = dot(lever, along) / one.gyration, depth / one.gyration
-        own = 1 + deep**2, far * deep, 1 + far**2
-        inverse_mass = [
-            sum_ + part / one.mass for sum_, part in zip(inverse_mass, own, strict=True)
-        ]
-    mass = InverseMass(*inverse_mass)
+            raise OutOfRange({i: said.format(vector[:, i].tolist()) for i in wrong.tolist()})
+    own = noncollinear.of_arrays(*body[:2], dot(offset, along), body.radius)
+    others = noncollinear.of_arrays(*other[:2], dot(other_offset, along), -other.radius)
+    mass = InverseMass(*map(np.add, own, others))
     m2 = 1 / np.asarray(mass.normal)
     restitution = mechanics.restitution(pair, body, other, m2, v2)
     loss_code = np.where(restitution == 1, np.int8(-1), pair.loss_code)
@@ -147,12 +140,9 @@ def answers(
             said = f"loss = '{name}': with an offset {ALLOWED}, or one of these as model"
             result.refused.update(dict.fromkeys(rows.tolist(), said))
             continue
-        try:
-            found = _rebound(chosen, impacts, plane.mass, rows, slice(None))
-        except InputError as failed:
-            alone = partial(_rebound, chosen, impacts, plane.mass, rows)
-            first, message = methods.first_refused(alone, rows.size, str(failed))
-            result.refused[int(rows[first])] = message
+        rebound = partial(_rebound, chosen, impacts, plane.mass, rows)
+        found = methods.tried(rebound, rows, result)
+        if not found:
             continue
         velocity[rows], _, friction[rows], push[rows] = found[:4]
         if isinstance(found, NoncollinearRebound):

@@ -16,7 +16,7 @@ import numpy as np
 
 from planarimpact import bodies, models, spheres
 from planarimpact.bodies import Body
-from planarimpact.collision.facts import Facts
+from planarimpact.collision.facts import Facts, in_shape
 from planarimpact.collision.mechanics import Impacts, cross, dot
 from planarimpact.collision.methods import ASKED, HEAD_ON, METHODS, SLIDING, table_error
 from planarimpact.collision.pairs import Pair
@@ -72,19 +72,10 @@ def facts(
         other = _answer(v1, float(pair.friction) * v2, *groups, loss_code != PLASTIC, inf)
         form = np.array(abs(other[0] - change)) if other else None
     answer = np.array([place]), np.array([change]), np.array([regime])
-    whole = _none if regime == Regime.NO_IMPACT else _only
+    approach = np.arange(0 if regime == Regime.NO_IMPACT else 1)
+    whole = partial(in_shape, approach, 1, ())
     spared = Caution.RESTITUTION if asked == (RIGID.name,) else Caution.NONE
     return Facts(whole, impacts, *answer, asked, spared, form=form, solve=solve)
-
-
-def _only(values: Any, _: Any) -> Any:
-    """The only one of several values, in the last axis."""
-    return values[..., 0]
-
-
-def _none(values: Any, before: Any) -> Any:
-    """The value where bodies do not approach."""
-    return np.full(values.shape[:-1], before)[()]
 
 
 def collide(

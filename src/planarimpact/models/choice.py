@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from contextlib import suppress
+from copy import deepcopy
+from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -160,7 +162,7 @@ def compare(
     columns = {name: [*cells] for name, cells in zip(COLUMNS, zip(*rows, strict=True), strict=True)}
     dissimilar = abs(float(bodies.dundurs(*pair))) > bodies.COUPLING * mu
     caution = Caution.of(str(known_loss), mu, e, dissimilar).text
-    named = {one: known for one, known in materials().items() if one in roles.values()}
+    named = {one: known for one, known in _materials().items() if one in roles.values()}
     notes = [
         f"{material} on {'a rigid body' if on is None else on}: stiffness ratio {groups[1]:.3g}; "
         f"restitution {e:g}, {source_of_e}; loss {known_loss}, {source_of_loss}",
@@ -184,6 +186,12 @@ def materials() -> dict[str, dict[str, dict[str, Any]]]:
     >>> materials()["alumina"]["restitution"]
     {'value': 0.98, 'source': 'on soda-lime glass, at 3.9 m/s (data/kharaz2001)'}
     """
+    return deepcopy(_materials())
+
+
+@cache
+def _materials() -> dict[str, dict[str, dict[str, Any]]]:
+    """Materials by name, of which nobody gets the original."""
     import tomllib  # here, as most programs do without materials
     from importlib import resources
 
@@ -197,7 +205,7 @@ def _moduli(role: str, given: str | Material) -> Material:
         for field, value in given._asdict().items():
             checks.number(f"{role}.{field}", value, "one number")
         return given
-    values = materials()[checks.word(role, given, materials())]
+    values = _materials()[checks.word(role, given, _materials())]
     return Material(*(values[field]["value"] for field in Material._fields))
 
 
@@ -205,7 +213,7 @@ def _known(name: str, given: Any, material: str | Material) -> tuple[Any, str]:
     """A property of a pair and its source: as given, or as known of the softer material."""
     if given is not None:
         return given, "as given"
-    known = materials().get(material, {}) if isinstance(material, str) else {}
+    known = _materials().get(material, {}) if isinstance(material, str) else {}
     if name not in known:
         raise checks.InputError(f"{name}: none is known here of {material}, give one")
     return known[name]["value"], known[name]["source"]

@@ -43,6 +43,7 @@ from planarimpact.noncollinear.configuration import (
     fields_of,
     inverse_mass,
 )
+from planarimpact.noncollinear.configuration import of_arrays as of_arrays
 from planarimpact.noncollinear.timeline import NoncollinearHistory, timeline
 from planarimpact.phases import Step
 from planarimpact.phases.closed import solve

@@ -67,11 +67,14 @@ def inverse_mass(
         offset=finite("offset", offset),
         depth=finite("depth", depth),
     )
-    offset, depth = offset / gyration, depth / gyration
     with np.errstate(over="ignore"):  # refused as beyond the rule of sizes
-        tangential, normal = (1 + depth**2) / mass, (1 + offset**2) / mass
-        result = InverseMass(tangential, offset * depth / mass, normal)
-    return checked_inverse_mass(result)
+        return checked_inverse_mass(of_arrays(mass, gyration, offset, depth))
+
+
+def of_arrays(mass: Numbers, gyration: Numbers, offset: Numbers, depth: Numbers) -> InverseMass:
+    """As `inverse_mass`, of checked arrays; that of an infinite mass is 0."""
+    offset, depth = offset / gyration, depth / gyration
+    return InverseMass((1 + depth**2) / mass, offset * depth / mass, (1 + offset**2) / mass)
 
 
 @checks.default_errors
