@@ -17,7 +17,6 @@ const page = (() => {
   const SETTLED = 300; // ms without a change, after which the address says the state
   const TOLD = 5000; // ms that a message stays
   const INVITATION = "Press Throw, or drag a ball";
-  const INTENT = 8; // pixels that a finger moves before its direction counts
   // A comma is read as a decimal point, never as a separator of thousands.
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
   const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -34,7 +33,6 @@ const page = (() => {
   let flights; // of both balls
   let chart; // what it shows, and its scale
   let told; // how far the show was when the line below the stage was written
-  let frozen; // the end of the axis of incidence while its chart is dragged
   let playing = false;
   let now = 0; // s of the show
   let lone = false; // one ball alone
@@ -194,7 +192,7 @@ const page = (() => {
     told = undefined;
     now = Math.min(now, stage.duration());
     if (!embedded && element("rebound").open) {
-      chart = charts.incidence(svg, wide, impact, state.view, frozen ?? charts.widest(impact));
+      chart = charts.incidence(svg, wide, impact, state.view);
     }
     show_controls();
     show_names();
@@ -397,48 +395,6 @@ const page = (() => {
     event.preventDefault();
   });
 
-  // Pressing or dragging in the chart asks for the incidence there. A mouse acts at once. A finger acts
-  // by a tap, or once it has moved more along the chart than across it: to scroll the page, starting on
-  // the chart, changes nothing.
-  const curves = element("incidence");
-  let start = null; // where it was pressed
-  let dragging = false;
-  function drag(event) {
-    if (!dragging) {
-      dragging = true;
-      curves.setPointerCapture(event.pointerId);
-      frozen = charts.widest(impact);
-    }
-    // The chart says the incidence of the contact point, to which spin adds.
-    const wanted = Math.tan((chart.angle(event) * Math.PI) / 180);
-    const spins = (impact.before.spin * state.radius) / 1000 / -impact.before.up;
-    take({ angle: (Math.atan(wanted + spins) * 180) / Math.PI });
-  }
-  function finish() {
-    if (dragging) {
-      frozen = undefined;
-      changed();
-    }
-    start = null;
-    dragging = false;
-  }
-  curves.addEventListener("pointerdown", (event) => {
-    if (!event.isPrimary || event.button !== 0) return;
-    start = { x: event.clientX, y: event.clientY };
-    if (event.pointerType !== "touch") drag(event);
-  });
-  curves.addEventListener("pointermove", (event) => {
-    if (!start || !event.isPrimary) return;
-    const [along, across] = [event.clientX - start.x, event.clientY - start.y].map(Math.abs);
-    if (dragging || (along > INTENT && along > across)) drag(event);
-    else if (across > INTENT) finish();
-  });
-  curves.addEventListener("pointerup", (event) => {
-    if (start && !dragging) drag(event);
-    finish();
-  });
-  curves.addEventListener("pointercancel", finish);
-
   // ---- the question ---------------------------------------------------------------------------
 
   // Who comes without a throw is asked before he sees: where one ball will be; then, with its twin whose
@@ -497,33 +453,10 @@ const page = (() => {
 
   // ---- how it looks, and what a reader takes along --------------------------------------------
 
-  // Some browsers keep nothing for a page that is a file.
-  function stored(name) {
-    try {
-      return localStorage.getItem(name);
-    } catch {
-      return null;
-    }
-  }
-
-  function store(name, value) {
-    try {
-      localStorage.setItem(name, value);
-    } catch {
-      // It is forgotten with the page.
-    }
-  }
-
-  const is_dark = () =>
-    root.dataset.theme
-      ? root.dataset.theme === "dark"
-      : matchMedia("(prefers-color-scheme: dark)").matches;
-
-  function look(theme) {
-    if (theme) root.dataset.theme = theme;
-    if (embedded) root.dataset.mode = hall ? "stage hall" : "stage";
-    element("do-dark").ariaPressed = is_dark();
-  }
+  // The page round a stage says when it becomes dark or light.
+  addEventListener("message", ({ data }) => {
+    if (embedded && ["dark", "light"].includes(data?.theme)) root.dataset.theme = data.theme;
+  });
 
   let telling;
   function tell(text) {
@@ -540,11 +473,6 @@ const page = (() => {
     (state.table ? `, table at ${charts.number(state.table)} m` : "");
 
   const ACTIONS = {
-    dark() {
-      const theme = is_dark() ? "light" : "dark";
-      store("explorer-theme", theme);
-      look(theme);
-    },
     async copy() {
       const link = `${location.href.split("#")[0]}#${address()}`;
       const copied = await files.copy(link);
@@ -564,13 +492,13 @@ const page = (() => {
     },
     async curve() {
       const legend = chart.curves.map(({ style }) =>
-        [curves.querySelector(`polyline.${style}`), models.NAMES[style]]);
+        [element("incidence").querySelector(`polyline.${style}`), models.NAMES[style]]);
       const shown = element("view").selectedOptions[0].textContent;
       const of = (place) => files.plain(document.querySelector(`${place} [data-view]:not([hidden])`));
       const [unit, along] = [of(".above"), of(".under")];
       const above = [`${shown}: ${unit}`];
       const below = [`against ${along}`, ...legend, about_impact()];
-      files.save("curve.png", await files.picture(curves, above, below));
+      files.save("curve.png", await files.picture(element("incidence"), above, below));
       tell("curve.png has the curve.");
     },
   };
@@ -596,12 +524,7 @@ const page = (() => {
     show_time();
   }
 
-  // The page round a stage says when it becomes dark or light.
-  addEventListener("message", ({ data }) => {
-    if (embedded && ["dark", "light"].includes(data?.theme)) look(data.theme);
-  });
-
-  look(stored("explorer-theme"));
+  if (embedded) root.dataset.mode = hall ? "stage hall" : "stage";
   restore();
   addEventListener("popstate", () => {
     // A place on the page, as #main, says no state.

@@ -66,7 +66,7 @@ const stage = (() => {
       const differs = (i, name) => Math.sign(rows[i][name]) !== Math.sign(rows[i - 1][name]);
       const changes = rows.filter(({ sticks }, i) => i > 1 && (sticks !== rows[i - 1].sticks ||
         differs(i, "velocity") || differs(i, "friction")));
-      return [{ time: 0.02 }, ...changes].map(({ time }) => start + (length * time) / end);
+      return [{ time: 0.02 }, ...changes].map(({ time }) => start + (length * (time + 1e-6)) / end);
     });
     return [...list.filter((one) => one > 0 && one < shown.end), shown.end];
   }

@@ -90,7 +90,7 @@ const words = (() => {
         "back at another moment, and the ball comes back.";
     }
     const kept = flight.slowest(given);
-    return kept <= SLOW ? went : `${went} No spring can turn this throw round: however far its bounces throw the ` +
+    return kept <= SLOW ? "" : `${went} No spring can turn this throw round: however far its bounces throw the ` +
       `contact point back, at least ${kept.toFixed(1)} m/s forwards are left.`;
   }
 
