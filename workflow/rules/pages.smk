@@ -62,6 +62,7 @@ rule lecture:
         page="figures/{notebook}.html",
         slides="figures/slides_{notebook}.html",
         student="figures/student_{notebook}.ipynb",
+        after="figures/after_{notebook}.ipynb",
         answers="figures/answers_{notebook}.html",
     log:
         "results/logs/lecture_{notebook}.log",
