@@ -113,6 +113,7 @@ def after(book: Any, folder: Path, name: str) -> Any:
         if fold > opened:
             said = f"## Prediction {fold}\n\n{question}"
             cells.append(new_markdown_cell(text(said, folder), id=f"prediction-{fold}"))
+            question = ""
         elif fold:
             said = structure.STAGE.sub(r"\g<words> (in your notebook)", cell.source)
             cells.append(new_markdown_cell(text(said, folder), id=cell.id))
