@@ -1,7 +1,8 @@
-"""The notebook of a lecture for a student, who may change each number and needs nothing beside it.
+"""The notebook of a lecture for a student, who may change each number and needs one other file.
 
-It has no answers, no checks and no outputs. Its first cell of code installs what is missing; style,
-tables and pictures stand inside. Links lead to the pages in its own folder.
+That is the wheel of the package, which the first cell of code installs. The notebook has no
+answers, no checks and no outputs. Style, tables and pictures stand inside. Links lead to the pages
+in its own folder.
 """
 
 import base64
@@ -15,6 +16,9 @@ from typing import Any
 import matplotlib
 import nbformat
 import pandas as pd
+
+import planarimpact
+from stronge1994 import versions
 
 # What a lecture reads from files, and how: no other way is known here.
 STYLE = re.compile(r'"(\w+\.mplstyle)"')
@@ -30,15 +34,37 @@ installed before Jupyter was started, else numbers to change. If something no lo
 your change, restart, and run all cells again. Links lead to pages that lie beside this notebook,
 where it was downloaded."""
 INSTALL = """\
-# Install what is missing. Is planarimpact not found? Then let WHERE be the folder of the project,
-# the one that holds pyproject.toml.
-WHERE = "planarimpact"
+# Installs planarimpact from its file, which lies beside this notebook. The network is needed only
+# for {modules}, where they are missing.
+%xmode Minimal
+import importlib, os, sys
 
-try:
-    import {modules}
-except ModuleNotFoundError:
-    %pip install "{{WHERE}}" {others}
-import planarimpact  # where this fails, pip says above what is wrong"""
+# VS Code may start elsewhere, and names the notebook.
+os.chdir(os.path.dirname(globals().get("__vsc_ipynb_file__", "")) or ".")
+
+
+def installed():
+    try:
+        from planarimpact import __version__  # which a mere folder of this name lacks
+        import {modules}
+    except ImportError:
+        return False
+    return __version__ == "{version}"
+
+
+if not installed():
+    if not os.path.exists("{wheel}"):
+        raise FileNotFoundError(
+            "Put {wheel} into the folder "
+            f"of this notebook, {{os.getcwd()}} (in Colab: the notebook by File > Upload notebook, "
+            "the other file by the folder icon on the left), and run this cell again."
+        )
+    %pip install -q ./{wheel} {others}
+    for name in [name for name in sys.modules if name.split(".")[0] == "planarimpact"]:
+        del sys.modules[name]
+    importlib.invalidate_caches()
+    if not installed():
+        raise ImportError("Something is still missing: pip says above what, and why.")"""
 
 
 def notebook(book: Any, folder: Path) -> Any:
@@ -110,15 +136,18 @@ def table(name: str, path: Path) -> str:
 
 
 def install(sources: str) -> str:
-    """The cell that installs what these cells import.
+    """The cell that installs the wheel beside the notebook, and what its cells import.
 
-    >>> print(install("import sys\\nimport matplotlib.pyplot as plt").split("\\n\\n")[1])
-    try:
-        import matplotlib, planarimpact
-    except ModuleNotFoundError:
-        %pip install "{WHERE}" matplotlib
-    import planarimpact  # where this fails, pip says above what is wrong
+    >>> said = install("import sys\\nfrom scipy.optimize import brentq\\nimport pandas as pd")
+    >>> print(said[said.index("        import") : said.index("    except")])
+            import numpy, pandas, scipy
+    <BLANKLINE>
     """
-    modules = {*MODULE.findall(sources), "planarimpact"} - set(sys.stdlib_module_names)
-    others = modules - {"planarimpact", "numpy", "scipy"}  # which it brings along
-    return INSTALL.format(modules=", ".join(sorted(modules)), others=" ".join(sorted(others)))
+    modules = {*MODULE.findall(sources), "numpy", "scipy"} - {*sys.stdlib_module_names}
+    others = sorted(modules - {"planarimpact"})
+    return INSTALL.format(
+        modules=", ".join(others),
+        others=" ".join(others),
+        version=planarimpact.__version__,
+        wheel=versions.WHEEL,
+    )
