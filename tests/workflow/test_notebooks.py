@@ -3,15 +3,21 @@
 import ast
 import inspect
 import json
+import os
 import re
+import subprocess
 import sys
+import venv
+from pathlib import Path
 
 import matplotlib
 import matplotlib.pyplot as plt
 import nbformat
 import pytest
+from nbconvert.filters import strip_ansi
 
 from planarimpact.lumped import stick_slip
+from stronge1994 import versions
 from stronge1994.pages import lectures, stated_numbers, structure, student
 from tests.workflow.project import ROOT
 
@@ -59,7 +65,8 @@ def executed(book, sliders=False):
     with matplotlib.rc_context():
         try:
             for cell in code_of(book):
-                source = re.sub(r"^ +%pip .*", "    raise", cell.source, flags=re.M)
+                source = re.sub(r"^%xmode .*", "", cell.source, flags=re.M)
+                source = re.sub(r"^ +%pip .*", "    raise", source, flags=re.M)
                 source = re.sub(r"^%%after .*", "", source)
                 exec(compile(source, cell.id, "exec"), names)
                 names |= {"play": at_both_ends} if sliders and "play" in names else {}
@@ -166,12 +173,13 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
         assert not re.search(r'src="(?!explorer\.html\?stage[&;a-z]*#|data:)|url\(|@import', page)
         linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
         linked_by[kind] = linked
-        assert all(re.fullmatch(r"[\w/]+\.(html|csv|ipynb)", file) for file in linked)
+        assert all(re.fullmatch(r"[\w/]+\.(html|csv|ipynb|whl)", file) for file in linked)
         assert not [file for file in linked if file.startswith("answers_")], "of the teacher"
     told = {kind: "Answer to exercise" in page for kind, page in pages.items()}
     assert told == {"": False, "slides_": False, "answers_": True}
     for kind in ("", "slides_"):
-        assert {f"student_{name}.ipynb", f"after_{name}.ipynb"} <= linked_by[kind]
+        needed = {f"student_{name}.ipynb", f"after_{name}.ipynb", versions.WHEEL}
+        assert needed <= linked_by[kind]
     log = (project / f"results/logs/lecture_{name}.log").read_text()
     assert not re.search("warning|error|traceback", log, flags=re.I), log
 
@@ -429,9 +437,57 @@ def test_a_student_gets_pictures_and_installs_what_a_cell_imports(tmp_path):
     assert student.text("![A ball](../drawing.svg)", tmp_path / "notebooks") == (
         '<img alt="A ball" src="data:image/svg+xml;base64,PHN2Zy8+">'
     )
-    said = student.install("import pandas as pd\nfrom scipy.optimize import brentq")
-    assert "import pandas, planarimpact, scipy\n" in said
-    assert '%pip install "{WHERE}" pandas\n' in said
+    said = student.install("import pandas as pd\nfrom planarimpact import lumped")
+    assert "import numpy, pandas, scipy\n" in said
+    assert f"%pip install -q ./{versions.WHEEL} numpy pandas scipy\n" in said
+
+
+@pytest.fixture
+def empty_python(tmp_path):
+    """A Python with all that ours has but planarimpact, and its folder of packages."""
+    venv.create(tmp_path / "venv", symlinks=True)
+    python = tmp_path / "venv" / Path(sys.executable).relative_to(sys.prefix)
+    (packages,) = (tmp_path / "venv").glob("lib/python*/site-packages")
+    for path in Path(nbformat.__file__).parents[1].iterdir():
+        if not re.match(r"planarimpact|__editable__", path.name) and path.suffix != ".pth":
+            (packages / path.name).symlink_to(path)
+    return python, packages
+
+
+@pytest.mark.parametrize("case", ["alone", "beside a clone", "older", "elsewhere", "no wheel"])
+def test_the_first_cell_installs_the_wheel_beside_it_and_asks_no_index(
+    case, empty_python, first_run, tmp_path
+):
+    (python, packages), folder = empty_python, tmp_path / "My lectures"
+    folder.mkdir()
+    cell = student.install("import numpy")
+    if case == "beside a clone":
+        (folder / "planarimpact/src/planarimpact").mkdir(parents=True)
+        cell = f"import planarimpact\n{cell}"
+    if case == "older":
+        (packages / "planarimpact").mkdir()
+        (packages / "planarimpact/__init__.py").write_text('__version__ = "0.3.0"')
+    if case == "elsewhere":  # as in VS Code
+        cell = f"__vsc_ipynb_file__ = {str(folder / 'a.ipynb')!r}\n{cell}"
+    if case != "no wheel":
+        (folder / versions.WHEEL).symlink_to(first_run[0] / f"figures/{versions.WHEEL}")
+    ending = "import planarimpact\nprint(planarimpact.__file__, planarimpact.lumped.rebound(8.0))"
+    (tmp_path / "cell.ipy").write_text(f"{cell}\n{ending}", encoding="utf-8")
+    result = subprocess.run(
+        [python, "-m", "IPython", "--no-banner", tmp_path / "cell.ipy"],
+        cwd=tmp_path if case == "elsewhere" else folder,
+        env={"PATH": os.environ["PATH"], "IPYTHONDIR": str(tmp_path), "PIP_NO_INDEX": "1"},
+        capture_output=True,
+        text=True,
+    )
+    said = strip_ansi(result.stdout)
+    if case == "no wheel":
+        error = (
+            rf"\nFileNotFoundError: Put {versions.WHEEL} .* {folder} .* run this cell again\.\s*$"
+        )
+        assert re.search(error, said), said
+    else:
+        assert f"{packages}/planarimpact/__init__.py Rebound(" in said, said
 
 
 def test_a_file_that_a_student_lacks_is_refused(tmp_path):

@@ -24,6 +24,7 @@ from nbconvert import HTMLExporter, SlidesExporter
 from nbconvert.filters import strip_ansi
 from traitlets.config import Config
 
+from stronge1994 import versions
 from stronge1994.pages import stated_numbers, structure, student
 
 # How pictures are written: without a date, and as wide as they are drawn.
@@ -93,7 +94,7 @@ def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) ->
         rest = Config({"TagRemovePreprocessor": {"enabled": True, "remove_cell_tags": others}})
         one = exporter(template_file=str(templates.get(kind, templates["page"])), config=rest)
         one.exclude_anchor_links = one.exclude_output_prompt = True
-        resources = {"metadata": {"name": name}, "kind": kind}
+        resources = {"metadata": {"name": name}, "kind": kind, "wheel": versions.WHEEL}
         texts[made[kind]] = one.from_notebook_node(book, resources)[0]
     for path, text in texts.items():
         Path(path).write_text(text, encoding="utf-8")

@@ -1,9 +1,9 @@
-"""The notebook of a lecture for a student, who may change each number and needs nothing beside it.
+"""The notebook of a lecture for a student, who may change each number and needs one other file.
 
-It has no answers, no checks and no outputs. Its first cell of code installs what is missing; style,
-tables and pictures stand inside. Links lead to the pages in its own folder. In place of a fold it
-has a cell to predict in, and the cells below show nothing before. What the fold says stands in a
-second notebook, which is text alone.
+That is the wheel of the package, which the first cell of code installs. The notebook has no
+answers, no checks and no outputs. Style, tables and pictures stand inside. Links lead to the pages
+in its own folder. In place of a fold it has a cell to predict in, and the cells below show nothing
+before. What the fold says stands in a second notebook, which is text alone.
 """
 
 import base64
@@ -19,6 +19,8 @@ import matplotlib
 import pandas as pd
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+import planarimpact
+from stronge1994 import versions
 from stronge1994.pages import structure
 
 BEGIN = """\
@@ -62,15 +64,37 @@ PAGE = re.compile(r"\.\./\.\./figures/([\w.]+)")
 EXPLORER = re.compile(r"\[([^]]*)\]\(\.\./\.\./figures/(explorer\.html#[^)]+)\)")
 MODULE = re.compile(r"^(?:from|import) (\w+)", re.M)
 INSTALL = """\
-# Install what is missing. Is planarimpact not found? Then let WHERE be the folder of the project,
-# the one that holds pyproject.toml.
-WHERE = "planarimpact"
+# Installs planarimpact from its file, which lies beside this notebook. The network is needed only
+# for {modules}, where they are missing.
+%xmode Minimal
+import importlib, os, sys
 
-try:
-    import {modules}
-except ModuleNotFoundError:
-    %pip install "{{WHERE}}" {others}
-import planarimpact  # where this fails, pip says above what is wrong"""
+# VS Code may start elsewhere, and names the notebook.
+os.chdir(os.path.dirname(globals().get("__vsc_ipynb_file__", "")) or ".")
+
+
+def installed():
+    try:
+        from planarimpact import __version__  # which a mere folder of this name lacks
+        import {modules}
+    except ImportError:
+        return False
+    return __version__ == "{version}"
+
+
+if not installed():
+    if not os.path.exists("{wheel}"):
+        raise FileNotFoundError(
+            "Put {wheel} into the folder "
+            f"of this notebook, {{os.getcwd()}} (in Colab: the notebook by File > Upload notebook, "
+            "the other file by the folder icon on the left), and run this cell again."
+        )
+    %pip install -q ./{wheel} {others}
+    for name in [name for name in sys.modules if name.split(".")[0] == "planarimpact"]:
+        del sys.modules[name]
+    importlib.invalidate_caches()
+    if not installed():
+        raise ImportError("Something is still missing: pip says above what, and why.")"""
 
 
 def notebook(book: Any, folder: Path, name: str) -> Any:
@@ -211,15 +235,18 @@ def table(name: str, path: Path) -> str:
 
 
 def install(sources: str) -> str:
-    """The cell that installs what these cells import.
+    """The cell that installs the wheel beside the notebook, and what its cells import.
 
-    >>> print(install("import sys\\nimport matplotlib.pyplot as plt").split("\\n\\n")[1])
-    try:
-        import matplotlib, planarimpact
-    except ModuleNotFoundError:
-        %pip install "{WHERE}" matplotlib
-    import planarimpact  # where this fails, pip says above what is wrong
+    >>> said = install("import sys\\nfrom scipy.optimize import brentq\\nimport pandas as pd")
+    >>> print(said[said.index("        import") : said.index("    except")])
+            import numpy, pandas, scipy
+    <BLANKLINE>
     """
-    modules = {*MODULE.findall(sources), "planarimpact"} - set(sys.stdlib_module_names)
-    others = modules - {"planarimpact", "numpy", "scipy"}  # which it brings along
-    return INSTALL.format(modules=", ".join(sorted(modules)), others=" ".join(sorted(others)))
+    modules = {*MODULE.findall(sources), "numpy", "scipy"} - {*sys.stdlib_module_names}
+    others = sorted(modules - {"planarimpact"})
+    return INSTALL.format(
+        modules=", ".join(others),
+        others=" ".join(others),
+        version=planarimpact.__version__,
+        wheel=versions.WHEEL,
+    )

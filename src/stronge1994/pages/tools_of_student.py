@@ -32,14 +32,12 @@ def after(number: str, cell: str) -> None:
 
 def stage(throw: str, ask: bool = False) -> None:
     """Show a throw, whose settings are those of the explorer, and say its address."""
-    address = f"?stage{'&ask' * ask}#{throw}"
     settings = throw.replace("=", " ").replace("&", ", ")
-    # VS Code says where the notebook lies; elsewhere a notebook runs in its own folder.
-    page = Path(globals().get("__vsc_ipynb_file__", "")).parent / "explorer.html"
+    page = Path("explorer.html")
     if not page.is_file():
         print(f"{settings}. To play it, put the file explorer.html beside this notebook.")
         return
-    text = page.read_text(encoding="utf-8")
+    address, text = f"?stage{'&ask' * ask}#{throw}", page.read_text(encoding="utf-8")
     text = text.replace("<html", f'<html data-address="{html.escape(address)}"', 1)
     frame = """<iframe title="A throw to play" style="width: 100%; height: 40rem; border: 0"
 srcdoc="{}"></iframe>"""
