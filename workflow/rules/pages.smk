@@ -69,6 +69,7 @@ rule lecture:
         page="figures/{notebook}.html",
         slides="figures/slides_{notebook}.html",
         student="figures/student_{notebook}.ipynb",
+        after="figures/after_{notebook}.ipynb",
         answers="figures/answers_{notebook}.html",
     log:
         "results/logs/lecture_{notebook}.log",
@@ -125,10 +126,30 @@ rule your_copy:
         "../scripts/write_your_copy.py"
 
 
+rule wheel:
+    """The solver as one file, which lies beside the notebooks of students, who install it."""
+    input:
+        code=[
+            "workflow/scripts/build_wheel.py",
+            *files("src/stronge1994/__init__.py", "src/stronge1994/logs.py"),
+        ],
+        packages="environment.txt",
+        source=[*PACKAGE, "src/planarimpact/README.md", "pyproject.toml", "LICENSE"],
+    output:
+        f"figures/{WHEEL}",
+    log:
+        "results/logs/wheel.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/build_wheel.py"
+
+
 PAGES = [
     *rules.report.output,
     *rules.explorer.output,
     *rules.your_copy.output,
+    *rules.wheel.output,
     *expand(rules.lecture.output, notebook=NOTEBOOKS),
 ]
 
