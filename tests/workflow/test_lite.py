@@ -1,4 +1,4 @@
-"""The notebooks of students in the browser, where JupyterLite, and for the last test Pyodide, can be had."""
+"""The notebooks of students in the browser: needs JupyterLite, and the last test Pyodide, too."""
 
 import functools
 import importlib.util
@@ -16,7 +16,7 @@ from tests.workflow.project import LEFT, PARTS, copy_of
 
 # A folder with an own copy of Pyodide can be named in this variable.
 PYODIDE = os.environ.get("PYODIDE_FOLDER")
-ALONE = {f"--config=lite={{pyodide_url: ./pyodide/pyodide.mjs}}"} if PYODIDE else set()
+ALONE = {"--config=lite={pyodide_url: ./pyodide/pyodide.mjs}"} if PYODIDE else set()
 
 
 @pytest.fixture(scope="module")
