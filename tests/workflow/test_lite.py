@@ -36,7 +36,8 @@ def site(first_run, tmp_path_factory):
 def test_the_site_has_the_notebooks_and_loads_their_packages_with_the_kernel(site):
     names = {path.name for path in (site / "files").iterdir()}
     assert {versions.WHEEL, "explorer.html"} < names
-    assert len([name for name in names if name.startswith("student_")]) == 3
+    for kind in ("student_", "after_"):
+        assert len([name for name in names if name.startswith(kind)]) == 3
     assert not [name for name in names if "answers" in name]
     config = json.loads((site / "jupyter-lite.json").read_text())["jupyter-config-data"]
     (kernel,) = config["litePluginSettings"].values()

@@ -157,6 +157,7 @@ rule lite:
             *rules.wheel.output,
             rules.explorer.output.page,  # which a cell shows
             *expand(rules.lecture.output.student, notebook=NOTEBOOKS),
+            *expand(rules.lecture.output.after, notebook=NOTEBOOKS),
         ],
     output:
         directory("results/lite"),
