@@ -384,14 +384,14 @@ def of_student(tmp_path, monkeypatch):
 # What a student may change first, in every cell that has it.
 EDITS = {
     "as it is": ("^", ""),
-    "friction": (r"\b((?:friction|mu) ?= ?)\d[\d.e-]*", r"\g<1>0.5"),
-    "restitution": (r"\b((?:restitution|e) ?= ?)\d[\d.e-]*", r"\g<1>0.6"),
-    "material": (r"\b(poisson_ratio ?= ?)\d[\d.e-]*", r"\g<1>0.4"),
-    "steel": (r"\b(poisson_ratio ?= ?)\d[\d.e-]*", r"\g<1>0.3"),
+    "friction": (r"\b((?i:friction|mu) ?= ?)\d[\d.e-]*", r"\g<1>0.5"),
+    "restitution": (r"\b((?i:restitution|e) ?= ?)\d[\d.e-]*", r"\g<1>0.6"),
+    "material": (r"\b((?i:poisson_ratio) ?= ?)\d[\d.e-]*", r"\g<1>0.4"),
+    "steel": (r"\b((?i:poisson_ratio) ?= ?)\d[\d.e-]*", r"\g<1>0.3"),
     "size": (r"\b((?:radius|diameter) ?= ?)\d[\d.e-]*", r"\g<1>0.04"),
     "body": (r"\b((?:mass_ratio|BETA) ?= ?)\d[\d.e-]*", r"\g<1>2.5"),
     "constants": (r"(?m)^([A-Z_]+ = )(\d+\.\d+)\b", lambda one: f"{one[1]}{0.8 * float(one[2])}"),
-    "slow": (r"\b((?:tangential|speed) ?= ?)\d[\d.e-]*", r"\g<1>1.5"),
+    "slow": (r"\b((?i:tangential|speed|along|down) ?= ?)\d[\d.e-]*", r"\g<1>1.5"),
 }
 
 

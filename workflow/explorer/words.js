@@ -43,38 +43,55 @@ const words = (() => {
   }
 
   // What has happened in this throw up to now, in a line: `upper` and `lower` are the bounces of the
-  // ball on a rigid contact and of that on a spring, of which `count` are over.
-  function story({ upper, lower }, count, over, springy) {
+  // ball on a rigid contact and of that on a spring, of which `count` are over, of the throw `given`. Of a
+  // `lone` ball only the lower one is told.
+  function story({ upper, lower, given }, count, over, springy, lone) {
     if (!count) {
-      return springy ? "The same throw twice. Only the lower ball has a spring along the surface."
+      return lone ? "" : springy ? "The same throw twice. Only the lower ball has a spring along the surface."
         : "The same throw twice. Neither ball has a spring along the surface: both contacts are rigid.";
     }
     const { wall } = lower[count - 1];
-    const rigid = bounced(upper[count - 1]);
-    const last = `After bounce ${count} (${wall}). ` + (springy
-      ? `With the spring: ${bounced(lower[count - 1])} Without: ${rigid}` : `Both: ${rigid}`);
-    return (over && ending(upper, lower, springy)) || last;
+    const [own, rigid] = [lower, upper].map((all) => bounced(all[count - 1]));
+    const said = lone ? own[0].toUpperCase() + own.slice(1)
+      : springy ? `With the spring: ${own} Without: ${rigid}` : `Both: ${rigid}`;
+    return (over && !lone && ending(upper, lower, springy, given)) || `After bounce ${count} (${wall}). ${said}`;
   }
 
+  const forwards = ({ after }) => after.along > SLOW;
+
   // What a throw forwards has come to, if the balls tell with spring and without what the spring does.
-  function ending(upper, lower, springy) {
-    const forwards = ({ after }) => after.along > SLOW;
+  function ending(upper, lower, springy, given) {
     const stopped = upper.every(({ contact: { state } }) => state.velocity === 0);
     if (lower[0].ball.along <= SLOW || !upper.every(forwards) || !stopped) return "";
-    const end = "Without a spring the contact point stops, and the ball goes on.";
+    const end = "Without a spring the contact point stopped, and the ball went on.";
     if (!springy) return `Both balls went on. ${end}`;
-    if (lower.every(forwards)) {
-      return "The ball with the spring went on, too. Timing decides: the spring turns the ball round only if " +
-        "the contact ends while the spring throws the contact point back hard enough.";
-    }
+    if (lower.every(forwards)) return missed(given);
     // The spin of an earlier bounce turns it, once.
     const turned = lower.findIndex((one) => !forwards(one));
-    const thrown = lower.every((one) => fate(one) === "thrown_back");
+    const thrown = lower[0].sign > 0 && lower.every((one) => fate(one) === "thrown_back");
     const back = lower.slice(turned).every(({ after }) => after.along < -SLOW);
     if (turned === 0 || !thrown || !back) return "";
     return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
       `back. So the ball spun fast, its ${lower[turned].wall === "table" ? "highest" : "lowest"} point ran forwards ` +
       `into the ${lower[turned].wall}, and friction there turned it round. ${end}`;
+  }
+
+  // Whether a spring could have turned a ball that went on: then the timing of its own is to blame.
+  function missed(given) {
+    const went = "The ball with the spring went on, too.";
+    const { groups, compliance } = given;
+    const turns = (share) => flight.bounces(flight.fly(given, (x) =>
+      models.contact("lumped", { ...groups, x, zeta2: (share / compliance) * groups.zeta2 })))
+      .at(-1).after.along < -SLOW;
+    const other = Array.from({ length: 100 }, (_, i) => (i + 1) / 100)
+      .sort((a, b) => Math.abs(a - compliance) - Math.abs(b - compliance)).find(turns);
+    if (other) {
+      return `${went} Timing decides: with the tangential compliance ${other} the spring throws the contact point ` +
+        "back at another moment, and the ball comes back.";
+    }
+    const kept = flight.slowest(given);
+    return kept <= SLOW ? "" : `${went} No spring can turn this throw round: however far its bounces throw the ` +
+      `contact point back, at least ${kept.toFixed(1)} m/s forwards are left.`;
   }
 
   return { story };

@@ -48,12 +48,19 @@ rule report:
         "../scripts/write_report.py"
 
 
+# What a lecture, or a check of its texts, reads.
+READ_BY = {
+    "choosing_a_model": "results/curves/trade.csv",
+    "why_a_superball_comes_back": "data/cross2014/impacts.csv",
+}
+
+
 rule lecture:
     """Run one lecture, with the checks of what its texts state, and write its pages."""
     input:
         code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
-        tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/curves/trade.csv"),
+        tables=lambda wildcards: READ_BY.get(wildcards.notebook, []),
         style="workflow/notebooks/lecture.mplstyle",
         page="workflow/report/notebook.html",
         slides="workflow/report/slides.html",
