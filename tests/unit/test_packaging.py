@@ -134,6 +134,7 @@ def test_environments_have_what_the_run_imports():
     names -= {*sys.stdlib_module_names, "planarimpact", "stronge1994"}
     names -= {"typing_extensions"}  # type checkers have it, and only they read it
     names -= {"PyInstaller"}  # which runs our hook
+    names -= {"IPython"}  # in a cell of a notebook, whose kernel brings it
     pinned = dict(re.findall(r"^([\w-]+)==(.*)$", text("environment.txt").lower(), flags=re.M))
     conda = text("workflow/envs/planarimpact.yaml")
     conda = dict(re.findall(r"^  - ([\w-]+)(?: =(.*))?$", conda, flags=re.M))

@@ -173,7 +173,10 @@ def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
         assert not re.search(r'src="(?!explorer\.html\?stage[&;a-z]*#|data:)|url\(|@import', page)
         linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
         linked_by[kind] = linked
-        assert all(re.fullmatch(r"[\w/]+\.(html|csv|ipynb|whl)", file) for file in linked)
+        assert all(
+            re.fullmatch(r"[\w/]+\.(html|csv|ipynb)|planarimpact-[\w.-]+\.whl", file)
+            for file in linked
+        )
         assert not [file for file in linked if file.startswith("answers_")], "of the teacher"
     told = {kind: "Answer to exercise" in page for kind, page in pages.items()}
     assert told == {"": False, "slides_": False, "answers_": True}
