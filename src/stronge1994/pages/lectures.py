@@ -37,7 +37,7 @@ FRAME = """<figure class="play">
 <iframe src="explorer.html?stage{ask}{state}" title="{title}" loading="lazy"></iframe>
 <figcaption>
 
-{words}. [Open in the explorer](explorer.html{state})
+{words}{stop} [Open in the explorer](explorer.html{alone}{state})
 
 </figcaption>
 </figure>"""
@@ -118,14 +118,20 @@ def on_a_page(source: str, folder: Path) -> str:
     'The velocity <span class="velocity">*v*₁</span>\\xa0=\\xa07'
     """
     # A notebook lies two folders below the one that holds those of the pages.
-    source = structure.STAGE.sub(
-        lambda link: FRAME.format(title=link["words"].replace("*", ""), **link.groupdict("")),
-        source.replace("../../figures/", ""),
-    )
+    source = structure.STAGE.sub(_frame, source.replace("../../figures/", ""))
     source = DRAWING.sub(lambda found: (folder / found[1]).read_text(encoding="utf-8"), source)
     for name, symbol in SYMBOLS.items():
         source = re.sub(symbol, rf'<span class="{name}">\g<0></span>', source)
     return source.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
+
+
+def _frame(link: re.Match[str]) -> str:
+    """The stage in place of a link to it. One that asks does so in the explorer, too."""
+    words, ask = link["words"], link["ask"] or ""
+    more = {"title": words.replace("*", ""), "stop": "" if words[-1] in ".!?" else "."}
+    return FRAME.format(
+        words=words, ask=ask, state=link["state"], alone=ask and f"?stage{ask}", **more
+    )
 
 
 def _execute(book: Any, notebook: str) -> None:

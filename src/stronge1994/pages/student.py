@@ -34,7 +34,7 @@ the lecture. Cells with `play(...)` have sliders and a button if `ipywidgets` wa
 Jupyter was started, else numbers to change. If something no longer works: undo your change,
 restart, and run all cells again. Links lead to pages that lie beside this notebook, where it was
 downloaded. To use an address such as `explorer.html#angle=45`, open `explorer.html` in a browser,
-and write the part from # on behind its address."""
+and write the rest behind its address there."""
 PREDICTION = '''\
 # Write what you predict between the quotation marks. Run this cell, then those below.
 PREDICTION_{fold} = """

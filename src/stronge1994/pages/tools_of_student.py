@@ -33,16 +33,16 @@ def after(number: str, cell: str) -> None:
 def stage(throw: str, ask: bool = False) -> None:
     """Show a throw, whose settings are those of the explorer, and say its address."""
     settings = throw.replace("=", " ").replace("&", ", ")
-    page = Path("explorer.html")
+    page, flags = Path("explorer.html"), "?stage&ask" if ask else "?stage"
     if not page.is_file():
         print(f"{settings}. To play it, put the file explorer.html beside this notebook.")
         return
-    address, text = f"?stage{'&ask' * ask}#{throw}", page.read_text(encoding="utf-8")
-    text = text.replace("<html", f'<html data-address="{html.escape(address)}"', 1)
+    address, text = html.escape(f"{flags}#{throw}"), page.read_text(encoding="utf-8")
+    text = text.replace("<html", f'<html data-address="{address}"', 1)
     frame = """<iframe title="A throw to play" style="width: 100%; height: 40rem; border: 0"
 srcdoc="{}"></iframe>"""
     display({"text/html": frame.format(html.escape(text))}, raw=True)
-    print(f"{settings}. Its address in the explorer: explorer.html#{throw}")
+    print(f"{settings}. Its address: explorer.html{flags if ask else ''}#{throw}")
 
 
 if get_ipython():
