@@ -132,23 +132,8 @@ const files = (() => {
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }
 
-  // True if the text is on the clipboard; the older way works where the newer one is not allowed.
-  async function copy(text) {
-    try {
-      await navigator.clipboard.writeText(text);
-      return true;
-    } catch {
-      const box = document.createElement("textarea");
-      const focused = document.activeElement;
-      box.value = text;
-      document.body.append(box);
-      box.select();
-      const copied = document.execCommand("copy");
-      box.remove();
-      focused?.focus();
-      return copied;
-    }
-  }
+  // True if the text is on the clipboard.
+  const copy = (text) => navigator.clipboard?.writeText(text).then(() => true, () => false);
 
   return { csv, picture, plain, save, copy };
 })();

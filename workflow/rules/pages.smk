@@ -145,6 +145,32 @@ rule wheel:
         "../scripts/build_wheel.py"
 
 
+rule lite:
+    """A web site on which the notebooks of students run in the browser. No part of `all`: it needs JupyterLite."""
+    input:
+        code=[
+            "workflow/scripts/build_lite.py",
+            *files("src/stronge1994/__init__.py", "src/stronge1994/logs.py"),
+        ],
+        packages="workflow/envs/lite.txt",
+        files=[
+            *rules.wheel.output,
+            rules.explorer.output.page,  # which a cell shows
+            *expand(rules.lecture.output.student, notebook=NOTEBOOKS),
+            *expand(rules.lecture.output.after, notebook=NOTEBOOKS),
+        ],
+    output:
+        directory("results/lite"),
+    log:
+        "results/logs/lite.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        pyodide_url=config["lite"]["pyodide_url"],
+    script:
+        "../scripts/build_lite.py"
+
+
 PAGES = [
     *rules.report.output,
     *rules.explorer.output,
