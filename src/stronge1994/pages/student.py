@@ -145,7 +145,8 @@ def after(book: Any, folder: Path, name: str) -> Any:
             question = ""
         elif fold:
             said = structure.STAGE.sub(r"\g<words> (in your notebook)", cell.source)
-            cells.append(new_markdown_cell(text(said, folder), id=cell.id))
+            said = text(structure.raised(said), folder)
+            cells.append(new_markdown_cell(said, id=cell.id))
         elif asked := structure.QUESTION.search(cell.source):
             question = asked[0]
         opened = max(opened, fold)
