@@ -441,6 +441,24 @@ def test_the_notebook_for_students_has_no_answers_and_all_that_it_needs(
     assert [cell.id for cell in made.cells] == [cell.id for cell in book.cells]
 
 
+@pytest.mark.parametrize(
+    ("name", "place", "derived"),
+    [
+        ("why_a_superball_comes_back", "numbers", {"BETA", "THROWN", "bounce", "throw"}),
+        ("why_a_superball_comes_back", "readings", {"EXAMPLE", "readings", "FILMED"}),
+        ("where_friction_turns_round", "numbers", {"ZETA2", "PACE"}),
+        ("choosing_a_model", "numbers", {"GROUPS", "yardstick"}),
+    ],
+)
+def test_a_number_that_is_changed_reaches_what_follows_from_it(name, place, derived, of_student):
+    """Who runs only the cell that he changed has no old numbers in those below."""
+    (cell,) = [cell for cell in code_of(of_student(name)) if cell.id == place]
+    assert "source_hidden" not in str(cell.metadata)
+    names = {node.id for node in ast.walk(ast.parse(cell.source)) if isinstance(node, ast.Name)}
+    defined = {node.name for node in ast.parse(cell.source).body if hasattr(node, "name")}
+    assert derived <= names | defined
+
+
 def test_a_student_gets_pictures_and_installs_what_a_cell_imports(tmp_path):
     (tmp_path / "notebooks").mkdir()
     (tmp_path / "drawing.svg").write_text("<svg/>")

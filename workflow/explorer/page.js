@@ -37,6 +37,7 @@ const page = (() => {
   let now = 0; // s of the show
   let lone = false; // one ball alone
   let asked; // the step of the question, where one is asked
+  let tells; // whether this page explains what it asked, or the lecture round it
   let guess; // of the place where the ball will be, in m from the hand
 
   // ---- state --------------------------------------------------------------------------------
@@ -409,19 +410,16 @@ const page = (() => {
         `It is ${Math.abs(off).toFixed(1)} m ${off < 0 ? "left" : "right"} of your guess.`;
     }, "Compare it with a twin", "twin"],
     twin: [() => "Two balls, thrown alike. One thing in their contacts differs: see the magnifying glasses. Why do the " +
-      `balls part? ${tells() ? "Say it in your words, then press Explain." : "Keep your answer: the lecture comes back to it."}`,
+      `balls part? ${tells ? "Say it in your words, then press Explain." : "Keep your answer: the lecture comes back to it."}`,
     "Explain"],
   };
-
-  // A lecture that asks explains by itself.
-  const tells = () => !place.hash.includes("=");
 
   function ask(step) {
     asked = step;
     lone = step === "guess" || step === "met";
     if (step) root.dataset.asks = step;
     else delete root.dataset.asks;
-    element("do-ask").textContent = step && (step !== "twin" || tells()) ? STEPS[step][1] : "";
+    element("do-ask").textContent = step && (step !== "twin" || tells) ? STEPS[step][1] : "";
     invite(step === "guess" ? "" : INVITATION);
     element("play").disabled = step === "guess" && guess === undefined;
     refresh();
@@ -522,7 +520,8 @@ const page = (() => {
     if (/\bview=/.test(said)) element("rebound").open = true;
     now = 0;
     playing = false;
-    ask(query.has("ask") || (!embedded && !said.includes("=")) ? "guess" : undefined);
+    tells = !said.includes("=");
+    ask(query.has("ask") || (!embedded && tells) ? "guess" : undefined);
     play(false);
     show_time();
   }

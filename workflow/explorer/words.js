@@ -32,12 +32,12 @@ const words = (() => {
     return rows.some(({ velocity }) => velocity < -models.STOPPED * x) ? "swung" : "let_go";
   }
 
-  // The contact point of one bounce, and what follows for the ball.
-  function bounced(bounce) {
+  // The contact point of one bounce, and what follows for the ball, which was `thrown` forwards or not.
+  function bounced(bounce, thrown) {
     const { x, ball, after, contact: { state } } = bounce;
     const left = `at ${percent(Math.abs(state.velocity) / x)} of the speed it came with`;
     const verb = Math.abs(ball.along) < SLOW ? "sets off" : ball.along * after.along < 0 ? "turns round"
-      : after.along < 0 ? "comes back" : "goes on";
+      : thrown && after.along < 0 ? "comes back" : "goes on";
     const goes = Math.abs(after.along) < SLOW ? "hardly moves along the surface"
       : `${verb}, ${Math.abs(after.along).toFixed(1)} m/s ${way(after.along)}`;
     return `${FATES[fate(bounce)](left)}; the ball ${goes}.`;
@@ -52,7 +52,8 @@ const words = (() => {
         : "The same throw twice. Neither ball has a spring along the surface: both contacts are rigid.";
     }
     const { wall } = lower[count - 1];
-    const [own, rigid] = [lower, upper].map((all) => bounced(all[count - 1]));
+    const thrown = lower[0].ball.along > SLOW;
+    const [own, rigid] = [lower, upper].map((all) => bounced(all[count - 1], thrown));
     const said = lone ? own[0].toUpperCase() + own.slice(1)
       : springy ? `With the spring: ${own} Without: ${rigid}` : `Both: ${rigid}`;
     return (over && !lone && ending(upper, lower, springy, given)) || `After bounce ${count} (${wall}). ${said}`;
@@ -73,7 +74,7 @@ const words = (() => {
     const back = lower.slice(turned).every(({ after }) => after.along < -SLOW);
     if (turned === 0 || !thrown || !back) return "";
     return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
-      `back. So the ball spun fast, its ${lower[turned].wall === "table" ? "highest" : "lowest"} point ran forwards ` +
+      `back. The ball spun fast, its ${lower[turned].wall === "table" ? "highest" : "lowest"} point ran forwards ` +
       `into the ${lower[turned].wall}, and friction there turned it round. ${end}`;
   }
 
@@ -85,10 +86,10 @@ const words = (() => {
       models.contact("lumped", { ...groups, x, zeta2: (share / compliance) * groups.zeta2 })))
       .at(-1).after.along < -SLOW;
     const other = Array.from({ length: 100 }, (_, i) => (i + 1) / 100)
-      .sort((a, b) => Math.abs(a - compliance) - Math.abs(b - compliance)).find(turns);
+      .sort((a, b) => Math.abs(a - compliance) - Math.abs(b - compliance)).find((share) => turns(share));
     if (other) {
-      return `${went} Timing decides: with the tangential compliance ${other} the spring throws the contact point ` +
-        "back at another moment, and the ball comes back.";
+      return `${went} Timing decides: with the tangential compliance ${other} the spring swings at another pace, ` +
+        "and the ball comes back.";
     }
     const kept = flight.slowest(given);
     const under = !given.table && given.radius < TABLE / 4 && turns(compliance, TABLE) ?
