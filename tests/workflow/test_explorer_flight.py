@@ -243,7 +243,7 @@ def springs(given, share):
 def test_the_last_sentence_is_true_by_what_happened_and_by_what_could_happen(scripts):
     """Each entry of the menu: what turns a ball that went on, and that nothing can."""
     throws = list(itertools.product(menu(), (1.0, 0.5)))
-    counts = dict.fromkeys(("Timing decides", "No spring can", "came back"), 0)
+    counts = dict.fromkeys(("Timing decides", "No spring can", "came back", "Under a table"), 0)
     chance = np.random.default_rng(7)
     for (given, share), told in zip(throws, scripts.map(TOLD, throws), strict=True):
         ending = told[1]
@@ -254,6 +254,8 @@ def test_the_last_sentence_is_true_by_what_happened_and_by_what_could_happen(scr
             other = re.search(r"compliance ([\d.]+) the spring", ending)
             least = re.search(r"at least ([\d.]+) m/s", ending)
             assert bool(other) != bool(least)
+            if under := re.search(r"Under a table at ([\d.]+) m it comes back", ending):
+                assert springs(given | {"table": float(under[1])}, share)[-1] < -0.05
             if other:
                 assert springs(given, float(other[1]))[-1] < -0.05
             kept = [

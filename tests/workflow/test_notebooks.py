@@ -240,9 +240,9 @@ def test_a_page_folds_what_the_notebook_folds_and_has_a_box_for_each_prediction(
     made = run(last, tmp_path)
     for kind in ("page", "answers"):
         fold = re.search(r'<details class="fold">.*?(?=<h2)', made[kind], flags=re.S)[0]
-        assert "Three are 3." in fold and "<h4>Why</h4>" in fold
+        assert "Three are 3." in fold and "<h3>Why</h3>" in fold
         assert fold.count("<details") == fold.count("</details>") == 2
-    assert "<h4>Why</h4>" in made["slides"] and "<details" not in made["slides"]
+    assert "<h3>Why</h3>" in made["slides"] and "<details" not in made["slides"]
     boxes = {kind: made[kind].count("<textarea") for kind in ("page", "answers", "slides")}
     assert boxes == {"page": 1, "answers": 0, "slides": 0}
     for kind, flags in (("page", ["", "&amp;ask"]), ("slides", ["&amp;hall", "&amp;hall&amp;ask"])):
@@ -285,7 +285,7 @@ def test_what_a_fold_says_is_in_a_notebook_of_its_own():
     assert [cell.source for cell in after.cells[1:]] == [
         f"## Prediction 1\n\n{QUESTION}",
         "Three are 3.\n\nPlay it: *three* (in your notebook)",
-        "#### Why",
+        "### Why",
     ]
     for one in (book, after):
         nbformat.validate(one)

@@ -131,8 +131,9 @@ const page = (() => {
     const { bounces: count, over, said: moment } = stage.progress(now);
     element("time").ariaValueText = moment;
     if (over && asked === "guess" && guess !== undefined) ask("met");
-    if (told === `${count} ${over} ${asked}`) return;
-    told = `${count} ${over} ${asked}`;
+    const key = `${count} ${over} ${asked} ${now > 0}`;
+    if (told === key) return;
+    told = key;
     const [upper, lower] = ["upper", "lower"].map((lane) => flight.bounces(flights[lane]));
     const given = thrown();
     const said = asked ? STEPS[asked][0](lower)
@@ -169,12 +170,11 @@ const page = (() => {
   }
 
   function show_names() {
-    const bare = asked === "guess" || asked === "met";
     const with_spring = innerWidth < 600 ? "spring" : "contact with a spring";
     const without = innerWidth < 600 ? "no spring" : "contact without a spring";
     const taken = innerWidth < 600 ? "no spring" : "its spring is taken away";
-    stage.part("upper-name").textContent = `\u25CF ${without}:`;
-    stage.part("lower-name").textContent = bare ? "" : `\u25CF ${impact.zeta2 ? with_spring : taken}:`;
+    stage.part("upper-name").textContent = asked ? "" : `\u25CF ${without}:`;
+    stage.part("lower-name").textContent = asked ? "" : `\u25CF ${impact.zeta2 ? with_spring : taken}:`;
   }
 
   const show_typed = (name) =>
@@ -187,7 +187,7 @@ const page = (() => {
     const svg = element("incidence");
     const wide = (Math.max(svg.clientWidth, 160) * 16) / parseFloat(getComputedStyle(root).fontSize);
     impact = solved(throw_);
-    stage.prepare(throw_, flights, { hall, lone, bare: asked === "guess" || asked === "met" });
+    stage.prepare(throw_, flights, { hall, lone, bare: lone && asked, mute: asked });
     stage.put_guess(asked ? guess : undefined);
     told = undefined;
     now = Math.min(now, stage.duration());
@@ -338,10 +338,9 @@ const page = (() => {
   });
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
   document.addEventListener("keydown", (event) => {
-    if (embedded && !event.target.matches("input, select, .grasp")) {
-      parent.postMessage({ key: event.key }, "*");
-    }
-    const own = "a, button, select, summary, [role=button], input:not([type=range])";
+    const own = "a, button, select, summary, [role], input:not([type=range])";
+    const used = "input, select, [role]" + (event.key === " " ? `, ${own}` : "");
+    if (embedded && !event.target.matches(used)) parent.postMessage({ key: event.key }, "*");
     if (event.key !== " " || event.target.matches(own)) return;
     event.preventDefault();
     play(!playing);
@@ -401,7 +400,7 @@ const page = (() => {
   // contact has no spring, why. Each step has its sentence, what its button says, and what comes next.
   const COUNT = ["", "only", "second", "third", "fourth", "fifth"];
   const STEPS = {
-    guess: [(bounces) => guess === undefined
+    guess: [(bounces) => now > 0 ? "Your guess stands." : guess === undefined
       ? `Where will the ball be after its ${COUNT[bounces.length]} bounce? Click on that place.`
       : "Your guess stands. Now press Throw.", "Skip the question"],
     met: [() => {
@@ -409,16 +408,20 @@ const page = (() => {
       return Math.abs(off) < 0.1 ? "Well guessed: there it is." :
         `It is ${Math.abs(off).toFixed(1)} m ${off < 0 ? "left" : "right"} of your guess.`;
     }, "Compare it with a twin", "twin"],
-    twin: [() => "Two balls, thrown alike. Only the lower one has a spring along the surface. Why do they part? " +
-      "Watch the magnifying glass, say it in your words, then press Explain.", "Explain"],
+    twin: [() => "Two balls, thrown alike. One thing in their contacts differs: see the magnifying glasses. Why do the " +
+      `balls part? ${tells() ? "Say it in your words, then press Explain." : "Keep your answer: the lecture comes back to it."}`,
+    "Explain"],
   };
+
+  // A lecture that asks explains by itself.
+  const tells = () => !place.hash.includes("=");
 
   function ask(step) {
     asked = step;
     lone = step === "guess" || step === "met";
     if (step) root.dataset.asks = step;
     else delete root.dataset.asks;
-    element("do-ask").textContent = step ? STEPS[step][1] : "";
+    element("do-ask").textContent = step && (step !== "twin" || tells()) ? STEPS[step][1] : "";
     invite(step === "guess" ? "" : INVITATION);
     element("play").disabled = step === "guess" && guess === undefined;
     refresh();

@@ -24,7 +24,8 @@ const stage = (() => {
   const part = (name) => element(`stage-${name}`);
 
   let shown; // what `prepare` was given, and what follows from it
-  let mode = {}; // `lone`: the lower ball alone; `bare`: no magnifying glass; `hall`: a large one
+  let mode = {}; // `lone`: the lower ball alone; `bare`: no magnifying glass; `hall`: a large one;
+                 // `mute`: no words
   let frame; // of the picture: see `framed`
   let held; // the frame while the ball is aimed
 
@@ -215,8 +216,7 @@ const stage = (() => {
       `M${behind.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join("L")}`);
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
     const seen = row && !mode.bare;
-    part(`${lane}-numbers`).textContent = mode.bare ? ""
-      : seen && above() ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
+    part(`${lane}-numbers`).textContent = mode.mute ? "" : seen && above() ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
     part(`${lane}-lens`).innerHTML = seen ? lens_of(lane, bounce, row, [x, foot]) : "";
   }
 
@@ -228,7 +228,7 @@ const stage = (() => {
   function lens_of(lane, bounce, now, tip) {
     const side = tip[0] < frame.width / 2 ? 1 : -1;
     const room = (side > 0 ? frame.width - tip[0] : tip[0]) - frame.radius - 30;
-    const size = mode.hall ? Math.min(HALL_LENS, (frame.floor - NAME) / 2 - 3, room / (2 * lanes().length) - 4)
+    const size = mode.hall ? Math.min(HALL_LENS * (mode.lone ? 1.5 : 1), (frame.floor - NAME) / 2 - 3, room / (2 * lanes().length) - 4)
       : Math.min(LENS, frame.sky / 2 - 3);
     const beyond = mode.hall && lane === "upper" ? 2 * size + 8 : 0;
     const x = tip[0] + side * (frame.radius + 14 + size + beyond);
@@ -236,7 +236,7 @@ const stage = (() => {
     const y = Math.min(Math.max(middle, NAME + size + 3), frame.floor - size + 2);
     const up = bounce.wall === "table" ? -1 : 1;
     return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign,
-      up, springy: springy(lane), x, y, size, tip, side, worded: !above() });
+      up, springy: springy(lane), x, y, size, tip, side, worded: !above() && !mode.mute });
   }
 
   function show(now) {

@@ -5,6 +5,7 @@ const words = (() => {
   const way = (sign) => (sign > 0 ? "forwards" : "backwards");
 
   const SLOW = 0.05; // m/s: less is 0.0 where one digit is shown
+  const TABLE = 0.7; // m above the floor
   const TINY = 1e-9; // incidence of a contact point that rolls, but for rounding
 
   function percent(share) {
@@ -80,7 +81,7 @@ const words = (() => {
   function missed(given) {
     const went = "The ball with the spring went on, too.";
     const { groups, compliance } = given;
-    const turns = (share) => flight.bounces(flight.fly(given, (x) =>
+    const turns = (share, table = given.table) => flight.bounces(flight.fly({ ...given, table }, (x) =>
       models.contact("lumped", { ...groups, x, zeta2: (share / compliance) * groups.zeta2 })))
       .at(-1).after.along < -SLOW;
     const other = Array.from({ length: 100 }, (_, i) => (i + 1) / 100)
@@ -90,8 +91,10 @@ const words = (() => {
         "back at another moment, and the ball comes back.";
     }
     const kept = flight.slowest(given);
+    const under = !given.table && given.radius < TABLE / 4 && turns(compliance, TABLE) ?
+      ` Under a table at ${TABLE} m it comes back.` : "";
     return kept <= SLOW ? "" : `${went} No spring can turn this throw round: however far its bounces throw the ` +
-      `contact point back, at least ${kept.toFixed(1)} m/s forwards are left.`;
+      `contact point back, at least ${kept.toFixed(1)} m/s forwards are left.${under}`;
   }
 
   return { story };

@@ -88,7 +88,8 @@ def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) ->
     for cell, fold in zip(book.cells, structure.folds(book.cells), strict=True):
         cell.metadata["fold"] = fold
         if cell.cell_type == "markdown":
-            cell.source = on_a_page(cell.source, Path(templates["page"]).parent)
+            source = structure.raised(cell.source) if fold else cell.source
+            cell.source = on_a_page(source, Path(templates["page"]).parent)
     for kind, exporter in EXPORTERS.items():
         others = {"student", "check"} | ({"answer"} if kind != "answers" else set())
         rest = Config({"TagRemovePreprocessor": {"enabled": True, "remove_cell_tags": others}})

@@ -33,3 +33,12 @@ def folds(cells: Sequence[Any]) -> list[int]:
             number, top = number + 1, level(cell)
         found.append(number if top else 0)
     return found
+
+
+def raised(source: str) -> str:
+    """A text of a fold where the fold has no heading of its own: its headings are a level higher.
+
+    >>> raised("#### Why")
+    '### Why'
+    """
+    return re.sub("^#(?=###)", "", source, flags=re.M)

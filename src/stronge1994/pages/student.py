@@ -32,9 +32,11 @@ cells show nothing while it is empty. Then read what the lecture says about it, 
 Change any number in a cell, then run that cell and those below it again. Texts keep the numbers of
 the lecture. Cells with `play(...)` have sliders and a button if `ipywidgets` was installed before
 Jupyter was started, else numbers to change. If something no longer works: undo your change,
-restart, and run all cells again. Links lead to pages that lie beside this notebook, where it was
+restart, and run all cells again. In Colab, first upload the file {wheel} by the folder icon on the
+left. Links lead to pages that lie beside this notebook, where it was
 downloaded. To use an address such as `explorer.html#angle=45`, open `explorer.html` in a browser,
 and write the rest behind its address there."""
+JOINED = "# ---- Nothing to change from here on."
 PREDICTION = '''\
 # Write what you predict between the quotation marks. Run this cell, then those below.
 PREDICTION_{fold} = """
@@ -110,6 +112,9 @@ def notebook(book: Any, folder: Path, name: str) -> Any:
             del inside[0]
             cells.append(new_code_cell(PREDICTION.format(fold=fold), id=f"prediction-{fold}"))
         for cell in inside:
+            if "joined" in _tags(cell):  # so that what is changed above it reaches it
+                cells[-1].source += f"\n\n\n{JOINED}\n{code(cell.source, folder)}"
+                continue
             cells += (_code if cell.cell_type == "code" else _text)(cell, folder, fold)
         if fold:
             said = SEEN.format(fold=fold, name=name)
@@ -119,7 +124,7 @@ def notebook(book: Any, folder: Path, name: str) -> Any:
     hidden = {"jupyter": {"source_hidden": True}}
     tools = TOOLS.read_text(encoding="utf-8").rstrip()
     cells[first:first] = [
-        new_markdown_cell(BEGIN.format(name=name), id="begin"),
+        new_markdown_cell(BEGIN.format(name=name, wheel=versions.WHEEL), id="begin"),
         new_code_cell(install(sources), id="install"),
         new_code_cell(tools, id="tools", metadata=hidden),
     ]
@@ -140,7 +145,8 @@ def after(book: Any, folder: Path, name: str) -> Any:
             question = ""
         elif fold:
             said = structure.STAGE.sub(r"\g<words> (in your notebook)", cell.source)
-            cells.append(new_markdown_cell(text(said, folder), id=cell.id))
+            said = text(structure.raised(said), folder)
+            cells.append(new_markdown_cell(said, id=cell.id))
         elif asked := structure.QUESTION.search(cell.source):
             question = asked[0]
         opened = max(opened, fold)
