@@ -450,9 +450,10 @@ def test_the_notebook_for_students_has_no_answers_and_all_that_it_needs(
         ("choosing_a_model", "numbers", {"GROUPS", "yardstick"}),
     ],
 )
-def test_a_number_that_is_changed_reaches_what_follows_from_it(name, place, derived, of_student):
+def test_a_number_that_is_changed_reaches_what_follows_from_it(name, place, derived, first_run):
     """Who runs only the cell that he changed has no old numbers in those below."""
-    (cell,) = [cell for cell in code_of(of_student(name)) if cell.id == place]
+    book = nbformat.read(first_run[0] / f"figures/student_{name}.ipynb", as_version=4)
+    (cell,) = [cell for cell in code_of(book) if cell.id == place]
     assert "source_hidden" not in str(cell.metadata)
     names = {node.id for node in ast.walk(ast.parse(cell.source)) if isinstance(node, ast.Name)}
     defined = {node.name for node in ast.parse(cell.source).body if hasattr(node, "name")}
