@@ -270,6 +270,21 @@ def test_who_comes_without_a_throw_is_asked_before_he_sees(show):
     tab = show()
     click(tab, "do-ask")
     assert "The same throw twice" in text(tab, "sentence")
+    # Back undoes a change, and neither asks again nor brings the other ball.
+    click(tab, "do-lone")
+    for angle in (20, 30):
+        type_in(tab, "angle", angle)
+        wait_for(tab, f"location.hash.startsWith('#angle={angle}&')", True)
+    for angle in ("20", "45"):
+        tab.evaluate("history.back()")
+        wait_for(tab, f"{element('angle')}.value", angle)
+        assert not is_drawn(tab, "stage-upper-ball") and is_drawn(tab, "controls")
+    assert tab.evaluate(f"{element('do-lone')}.ariaPressed") == "true"
+    assert tab.evaluate("location.hash") == ""
+    # Who writes a throw behind the address is asked no more.
+    tab = show()
+    tab.evaluate(f"location.hash = '{SUPERBALL}'")
+    wait_for(tab, "document.documentElement.dataset.asks ?? ''", "")
 
 
 def test_a_hall_sees_a_large_spring_and_one_ball(show):
@@ -518,7 +533,8 @@ def test_numbers_and_pictures_are_saved(show):
         " fillText.call(this, text, ...place); };"
         " const { serializeToString } = XMLSerializer.prototype;"
         " XMLSerializer.prototype.serializeToString = function (drawing) {"
-        " window.written += drawing.textContent; return serializeToString.call(this, drawing); } }"
+        " window.written += drawing.textContent; window.drawn = drawing;"
+        " return serializeToString.call(this, drawing); } }"
     )
     for button, name in (("ball", "stage.png"), ("curve", "curve.png")):
         click(tab, f"do-{button}")
@@ -530,6 +546,11 @@ def test_numbers_and_pictures_are_saved(show):
         assert np.median(picture[..., :3]) > 0.9
     assert tab.evaluate("end") <= 1, "a line is wider than its picture"
     written = tab.evaluate("written")
+    # One ball is alone in its picture, too, which has no style sheet.
+    for display in ("none", "inline"):
+        click(tab, "do-lone")
+        click(tab, "do-ball")
+        wait_for(tab, "drawn.querySelector('#stage-upper')?.style.display", display)
     assert "v₁(t_f)/(µv₂(0)) of the contact" in written and "Press Throw" not in written
 
 

@@ -57,7 +57,7 @@ const files = (() => {
     const [from, to] = [svg, copy].map((one) => [one, ...one.querySelectorAll("*")]);
     const KEPT = [
       "fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap",
-      "stroke-linejoin", "opacity", "visibility", "font-family", "font-size", "font-style",
+      "stroke-linejoin", "opacity", "display", "visibility", "font-family", "font-size", "font-style",
       "font-weight", "text-anchor", "paint-order",
     ];
     from.forEach((one, i) => {

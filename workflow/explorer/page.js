@@ -35,9 +35,9 @@ const page = (() => {
   let told; // how far the show was when the line below the stage was written
   let playing = false;
   let now = 0; // s of the show
-  let lone = false; // one ball alone
-  let asked; // the step of the question, where one is asked
-  let tells; // whether this page explains what it asked, or the lecture round it
+  let lone = false; // one ball alone, as the reader chose
+  let asked = query.has("ask") || !embedded ? "guess" : undefined; // the step of the question
+  const tells = !place.hash.includes("="); // this page explains what it asked, not the lecture round it
   let guess; // of the place where the ball will be, in m from the hand
 
   // ---- state --------------------------------------------------------------------------------
@@ -188,7 +188,7 @@ const page = (() => {
     const svg = element("incidence");
     const wide = (Math.max(svg.clientWidth, 160) * 16) / parseFloat(getComputedStyle(root).fontSize);
     impact = solved(throw_);
-    stage.prepare(throw_, flights, { hall, lone, bare: lone && asked, mute: asked });
+    stage.prepare(throw_, flights, { hall, lone: lone || bare(), bare: bare(), mute: asked });
     stage.put_guess(asked ? guess : undefined);
     told = undefined;
     now = Math.min(now, stage.duration());
@@ -221,15 +221,19 @@ const page = (() => {
     }, SETTLED);
   }
 
-  let due = false; // a change that the next frame draws: not more than one in a frame
-  function changed() {
-    remember();
+  let due = false; // what the next frame draws: not more than once in a frame
+  function redraw() {
     if (due) return;
     due = true;
     requestAnimationFrame(() => {
       due = false;
       refresh();
     });
+  }
+
+  function changed() {
+    remember();
+    redraw();
   }
 
   function take(values) {
@@ -281,7 +285,7 @@ const page = (() => {
   element("preset").addEventListener("change", (event) => {
     if (event.target.value) go(event.target.value);
   });
-  element("rebound").addEventListener("toggle", changed);
+  element("rebound").addEventListener("toggle", redraw);
   for (const button of document.querySelectorAll(".body")) {
     button.addEventListener("click", () => take({ mass_ratio: Number(button.dataset.mass_ratio) }));
   }
@@ -319,7 +323,7 @@ const page = (() => {
 
   // The next moment at which something begins; a question without a magnifying glass has but the end.
   function next_moment() {
-    const all = asked && asked !== "twin" ? [stage.duration()] : stage.moments();
+    const all = bare() ? [stage.duration()] : stage.moments();
     go_to(all.find((one) => one > now + 1e-6) ?? 0);
   }
 
@@ -414,9 +418,11 @@ const page = (() => {
     "Explain"],
   };
 
+  // One ball is seen, and no magnifying glass.
+  const bare = () => asked === "guess" || asked === "met";
+
   function ask(step) {
     asked = step;
-    lone = step === "guess" || step === "met";
     if (step) root.dataset.asks = step;
     else delete root.dataset.asks;
     element("do-ask").textContent = step && (step !== "twin" || tells) ? STEPS[step][1] : "";
@@ -520,10 +526,9 @@ const page = (() => {
     if (/\bview=/.test(said)) element("rebound").open = true;
     now = 0;
     playing = false;
-    tells = !said.includes("=");
-    ask(query.has("ask") || (!embedded && tells) ? "guess" : undefined);
+    // Who has a throw is not asked. Back asks nobody again.
+    ask(said.includes("=") && !query.has("ask") ? undefined : asked);
     play(false);
-    show_time();
   }
 
   if (embedded) root.dataset.mode = hall ? "stage hall" : "stage";
@@ -533,8 +538,8 @@ const page = (() => {
     if (location.hash === "" || location.hash.includes("=")) restore();
   });
   // Also when the words below it take more lines.
-  new ResizeObserver(changed).observe(element("stage-svg"));
-  addEventListener("resize", changed);
+  new ResizeObserver(redraw).observe(element("stage-svg"));
+  addEventListener("resize", redraw);
 
   // Goes to the state that an address says, as a preset does.
   function go(to) {
