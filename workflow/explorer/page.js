@@ -189,7 +189,7 @@ const page = (() => {
     const wide = (Math.max(svg.clientWidth, 160) * 16) / parseFloat(getComputedStyle(root).fontSize);
     impact = solved(throw_);
     stage.prepare(throw_, flights, { hall, lone: lone || bare(), bare: bare(), mute: asked });
-    stage.put_guess(asked ? guess : undefined);
+    stage.put_guess(bare() ? guess : undefined);
     told = undefined;
     now = Math.min(now, stage.duration());
     if (!embedded && element("rebound").open) {
