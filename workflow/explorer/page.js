@@ -171,11 +171,10 @@ const page = (() => {
   }
 
   function show_names() {
-    const with_spring = innerWidth < 600 ? "spring" : "contact with a spring";
-    const without = innerWidth < 600 ? "no spring" : "contact without a spring";
-    const taken = innerWidth < 600 ? "no spring" : "its spring is taken away";
-    stage.part("upper-name").textContent = asked ? "" : `\u25CF ${without}:`;
-    stage.part("lower-name").textContent = asked ? "" : `\u25CF ${impact.zeta2 ? with_spring : taken}:`;
+    const [with_spring, without, taken] = innerWidth < 600 ? ["spring", "no spring", "no spring"]
+      : ["contact with a spring", "contact without a spring", "its spring is taken away"];
+    stage.part("upper-name").textContent = `\u25CF ${without}:`;
+    stage.part("lower-name").textContent = `\u25CF ${impact.zeta2 ? with_spring : taken}:`;
   }
 
   const show_typed = (name) =>
@@ -188,7 +187,7 @@ const page = (() => {
     const svg = element("incidence");
     const wide = (Math.max(svg.clientWidth, 160) * 16) / parseFloat(getComputedStyle(root).fontSize);
     impact = solved(throw_);
-    stage.prepare(throw_, flights, { hall, lone: lone || bare(), bare: bare(), mute: asked });
+    stage.prepare(throw_, flights, { hall, lone: lone || bare(), bare: bare() });
     stage.put_guess(bare() ? guess : undefined);
     told = undefined;
     now = Math.min(now, stage.duration());

@@ -24,8 +24,7 @@ const stage = (() => {
   const part = (name) => element(`stage-${name}`);
 
   let shown; // what `prepare` was given, and what follows from it
-  let mode = {}; // `lone`: the lower ball alone; `bare`: no magnifying glass; `hall`: a large one;
-                 // `mute`: no words
+  let mode = {}; // `lone`: the lower ball alone; `bare`: no magnifying glass; `hall`: a large one
   let frame; // of the picture: see `framed`
   let held; // the frame while the ball is aimed
 
@@ -216,7 +215,8 @@ const stage = (() => {
       `M${behind.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join("L")}`);
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
     const seen = row && !mode.bare;
-    part(`${lane}-numbers`).textContent = mode.mute ? "" : seen && above() ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
+    part(`${lane}-numbers`).textContent =
+      seen && above() ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
     part(`${lane}-lens`).innerHTML = seen ? lens_of(lane, bounce, row, [x, foot]) : "";
   }
 
@@ -236,7 +236,7 @@ const stage = (() => {
     const y = Math.min(Math.max(middle, NAME + size + 3), frame.floor - size + 2);
     const up = bounce.wall === "table" ? -1 : 1;
     return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign,
-      up, springy: springy(lane), x, y, size, tip, side, worded: !above() && !mode.mute });
+      up, springy: springy(lane), x, y, size, tip, side, worded: !above() });
   }
 
   function show(now) {
