@@ -33,9 +33,9 @@ Change any number in a cell, then run that cell and those below it again. Texts 
 the lecture. Cells with `play(...)` have sliders and a button if `ipywidgets` was installed before
 Jupyter was started, else numbers to change. If something no longer works: undo your change,
 restart, and run all cells again. In Colab, first upload the file {wheel} by the folder icon on the
-left. Links lead to pages that lie beside this notebook, where it was
-downloaded. To use an address such as `explorer.html#angle=45`, open `explorer.html` in a browser,
-and write the rest behind its address there."""
+left. Links lead to pages that lie beside this notebook, where it was downloaded. To use an address
+such as `explorer.html#angle=45`, open `explorer.html` in a browser, and write the rest behind its
+address there."""
 JOINED = "# ---- Nothing to change from here on."
 PREDICTION = '''\
 # Write what you predict between the quotation marks. Run this cell, then those below.
@@ -119,11 +119,10 @@ def notebook(book: Any, folder: Path, name: str) -> Any:
         if fold:
             said = SEEN.format(fold=fold, name=name)
             cells.append(new_markdown_cell(said, id=f"prediction-{fold}-seen"))
-    first = next(n for n, cell in enumerate(cells) if cell.cell_type == "code")
     sources = "\n".join(cell.source for cell in cells if cell.cell_type == "code")
     hidden = {"jupyter": {"source_hidden": True}}
     tools = TOOLS.read_text(encoding="utf-8").rstrip()
-    cells[first:first] = [
+    cells[1:1] = [  # below the title
         new_markdown_cell(BEGIN.format(name=name, wheel=versions.WHEEL), id="begin"),
         new_code_cell(install(sources), id="install"),
         new_code_cell(tools, id="tools", metadata=hidden),
