@@ -241,7 +241,7 @@ def test_who_comes_without_a_throw_is_asked_before_he_sees(show):
             assert ("spring along the surface" in seen) == (step == 2), seen
             assert is_drawn(tab, "stage-upper-ball") == (step == 2)
             if step == 0:
-                assert "after its third bounce?" in text(tab, "sentence")
+                assert "on its way up after its third bounce?" in text(tab, "sentence")
                 assert tab.evaluate(f"{element('play')}.disabled")
                 press(tab, "stage-guess", "ArrowRight")
                 x, y = middle(tab, "stage-svg")
