@@ -405,7 +405,7 @@ const page = (() => {
   const COUNT = ["", "only", "second", "third", "fourth", "fifth"];
   const STEPS = {
     guess: [(bounces) => now > 0 ? "Your guess stands." : guess === undefined
-      ? `Where will the ball be after its ${COUNT[bounces.length]} bounce? Click on that place.`
+      ? `Where will the ball be, on its way up after its ${COUNT[bounces.length]} bounce? Click on that place.`
       : "Your guess stands. Now press Throw.", "Skip the question"],
     met: [() => {
       const off = stage.last_place() - guess;

@@ -323,7 +323,7 @@ const stage = (() => {
   function put_guess(place) {
     const x = (frame.origin + frame.scale * (place ?? 0)).toFixed(1);
     part("guess-line").setAttribute("d", place === undefined ? "" : `M${x},${NAME}V${frame.floor}`);
-    part("guess-word").setAttribute("x", x);
+    part("guess-word").setAttribute("x", Math.min(Math.max(x, 46), frame.width - 46));
     part("guess-word").setAttribute("y", frame.floor - 8);
     part("guess-word").textContent = place === undefined ? "" : "your guess";
   }
