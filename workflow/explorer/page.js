@@ -323,7 +323,7 @@ const page = (() => {
   // The next moment at which something begins; a question without a magnifying glass has but the end.
   function next_moment() {
     const all = bare() ? [stage.duration()] : stage.moments();
-    go_to(all.find((one) => one > now + 1e-6) ?? 0);
+    go_to(all.find((one) => one > now + 1e-6) ?? all[0]);
   }
 
   function go_to(time) {
@@ -356,7 +356,7 @@ const page = (() => {
     // A touch here throws, it does not scroll; browsers ignore touch-action inside SVG.
     handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
     handle.addEventListener("pointerdown", (event) => {
-      if (!event.isPrimary || event.button !== 0) return;
+      if (!event.isPrimary || event.button !== 0 || asked) return;
       go_to(0);
       stage.hold(true);
       handle.setPointerCapture(event.pointerId);
@@ -391,7 +391,7 @@ const page = (() => {
       ArrowRight: turn("angle", 1), ArrowLeft: turn("angle", -1), ArrowUp: turn("speed", 0.2),
       ArrowDown: turn("speed", -0.2), PageUp: turn("spin", 20), PageDown: turn("spin", -20),
     }[event.key];
-    if (change) take(change);
+    if (change && !asked) take(change);
     else if (event.key === "Enter") throw_ball();
     else if (event.key === " ") play(!playing);
     else return;
@@ -430,12 +430,12 @@ const page = (() => {
     refresh();
   }
 
-  function put_guess(place) {
-    guess = place;
+  function put_guess(there) {
+    guess = Math.min(Math.max(there, -9), 9);
     element("play").disabled = false;
     const handle = stage.part("guess");
-    handle.setAttribute("aria-valuenow", place.toFixed(2));
-    handle.setAttribute("aria-valuetext", `${place.toFixed(2)} m from the hand`);
+    handle.setAttribute("aria-valuenow", guess.toFixed(2));
+    handle.setAttribute("aria-valuetext", `${guess.toFixed(2)} m from the hand`);
     told = undefined;
     stage.put_guess(guess);
     show_story();

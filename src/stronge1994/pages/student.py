@@ -19,7 +19,6 @@ import matplotlib
 import pandas as pd
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-import planarimpact
 from stronge1994 import versions
 from stronge1994.pages import structure
 
@@ -252,6 +251,6 @@ def install(sources: str) -> str:
     return INSTALL.format(
         modules=", ".join(others),
         others=" ".join(others),
-        version=planarimpact.__version__,
+        version=versions.installed()["planarimpact"],
         wheel=versions.WHEEL,
     )
