@@ -265,7 +265,7 @@ def test_who_comes_without_a_throw_is_asked_before_he_sees(show):
     press(tab, "stage-grasp", "ArrowRight")
     x, y = middle(tab, "stage-grasp")
     drag(tab, "mouse", (x, y), (x + 70, y + 10))
-    assert (value(tab, "angle"), value(tab, "speed"), value(tab, "time")) == (45, 7.07, 0)
+    assert (value(tab, "angle"), value(tab, "speed"), value(tab, "time")) == (45, 7.1, 0)
     # A lecture that asks explains by itself.
     tab = show(SUPERBALL, query="?stage&ask")
     press(tab, "stage-guess", "ArrowRight")
