@@ -39,6 +39,7 @@ rule notebooks:
     """The lectures alone: notebooks run from the first cell to the last, as pages."""
     input:
         "results/curves/trade.csv",
+        rules.wheel.output,
         expand(rules.lecture.output, notebook=NOTEBOOKS),
 
 

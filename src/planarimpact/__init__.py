@@ -58,7 +58,7 @@ if TYPE_CHECKING:  # the rest loads when it is used
     from planarimpact.collision import Collision, Pair, collide
     from planarimpact.continuum import ContinuumHistory
 
-__version__ = "0.3.0"
+__version__ = "0.4.0"
 
 # Modules first, in the order of the text above.
 __all__ = [

@@ -10,6 +10,8 @@ from pathlib import Path
 import planarimpact
 
 PACKAGES = ("numpy", "scipy", "matplotlib", "pandas", "snakemake")
+# The file of the package that a run builds, for the notebooks of students.
+WHEEL = f"planarimpact-{planarimpact.__version__}-py3-none-any.whl"
 NO_COMMIT = "unknown: not a git checkout, or git is missing"
 
 

@@ -13,7 +13,7 @@ from stronge1994.settings import config as configuration
 
 ROOT = Path(__file__).parents[2]
 PARTS = ["Snakefile", "profiles", "workflow", "src", "data", "figures/README.md", ".gitignore"]
-PARTS += ["LICENSE", "CITATION.cff", "environment.txt"]
+PARTS += ["LICENSE", "CITATION.cff", "environment.txt", "pyproject.toml"]
 LEFT = ["results", "figures", ".snakemake"]  # by a run
 TIMEOUT = 3600  # s, against a run that hangs, not against a busy machine
 

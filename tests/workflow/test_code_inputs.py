@@ -39,7 +39,7 @@ BY_NAME = {"solve": r"/curves\.py$", "draw": r"/drawing\.py$"}
 @pytest.fixture(scope="module")
 def inputs():
     """Inputs of each job, `{(script, module, ...): paths}`, as a dry run names them."""
-    asked = ["all", "accept", "fig6", "--dry-run", "--forceall", "--nolock"]
+    asked = ["all", "accept", "fig6", "lite", "--dry-run", "--forceall", "--nolock"]
     said = Project(ROOT).run(*asked, "--workflow-profile", "none").stdout
     found = {}
     for line in re.findall(r"^    input: (.*)$", said, flags=re.M):

@@ -24,6 +24,10 @@ from tests.workflow.project import config
 
 SLIDERS = list(write_explorer.LIMITS)
 SOLID = "&poisson_ratio=0.3&mass_ratio=3.5"
+SUPERBALL = (
+    "angle=45&friction=0.8&restitution=0.9&poisson_ratio=0.5&mass_ratio=3.5&speed=7.07&table=0.7"
+    "&gravity=0"
+)
 # A change is drawn in the next frame of the browser.
 FRAME = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 PLAY = "document.getElementById('play').textContent.split(' ').slice(1).join(' ')"
@@ -39,6 +43,10 @@ def text(tab, name):
 
 def texts(tab, query):
     return tab.evaluate(f"[...document.querySelectorAll('{query}')].map((e) => e.textContent)")
+
+
+def is_drawn(tab, name):
+    return tab.evaluate(f"{element(name)}.getClientRects().length > 0")
 
 
 def value(tab, name):
@@ -64,6 +72,13 @@ def press(tab, name, *keys):
     tab.evaluate(f"{element(name)}.focus()")
     for key in keys:
         tab.press(key)
+    tab.evaluate(FRAME)
+
+
+def unfold(tab):
+    """Open the other controls, and the chart."""
+    for name in ("more", "rebound"):
+        tab.evaluate(f"{element(name)}.open = true")
     tab.evaluate(FRAME)
 
 
@@ -139,7 +154,7 @@ def test_numbers_are_typed_or_moved_by_keys(show):
     state = "angle=50&friction=0.5&restitution=0.6&poisson_ratio=0.3&mass_ratio=3&compliance=0.9"
     state += "&table=1"
     tab = show(state)
-    tab.evaluate(f"{element('more')}.open = true")
+    unfold(tab)
     for slider in SLIDERS:
         go(tab, state)
         parts = "#stage-svg"
@@ -169,9 +184,9 @@ def test_numbers_are_typed_or_moved_by_keys(show):
 def test_everything_is_reached_and_done_by_keys(show):
     tab, reached = show("angle=30&friction=0.4&restitution=1&speed=5&spin=0", width=390), set()
     controls = "[...document.querySelectorAll('button, input, select, [tabindex]')]"
-    there = "!e.disabled && e.checkVisibility() && !e.closest('details:not([open])')"
+    there = "!e.disabled && e.getClientRects().length && !e.closest('details:not([open])')"
     first_sight = tab.evaluate(f"{controls}.filter((e) => {there}).length")
-    tab.evaluate(f"{element('more')}.open = true")
+    unfold(tab)
     name = "e.id || e.textContent"
     for _ in range(70):
         tab.press("Tab")
@@ -181,11 +196,128 @@ def test_everything_is_reached_and_done_by_keys(show):
     press(tab, "stage-grasp", "ArrowRight", "ArrowRight", "ArrowLeft", "PageUp", "PageUp")
     press(tab, "stage-grasp", "ArrowUp", "ArrowUp", "ArrowDown", "PageDown")
     assert [value(tab, name) for name in ("angle", "speed", "spin", "time")] == [31, 5.2, 20, 0]
-    # With less motion the whole path is there at once, whatever throws.
+    # With less motion one moment comes after the other, whatever throws.
+    first, second = tab.evaluate("stage.moments()")[:2]
     for thrown in (lambda: press(tab, "stage-grasp", "Enter"), lambda: click(tab, "play")):
         click(tab, "do-start")
         thrown()
-        assert value(tab, "time") == pytest.approx(tab.evaluate("stage.duration()"))
+        assert value(tab, "time") == pytest.approx(first)
+    press(tab, "do-moment", "Enter")
+    assert value(tab, "time") == pytest.approx(second)
+
+
+def test_the_next_moment_shows_what_begins(show):
+    """The superball under a table: what is said of its spring, of each bounce and at the end."""
+    tab, said, words = show(SUPERBALL), [], []
+    while "the end" not in said:
+        click(tab, "do-moment")
+        said.append(tab.evaluate(f"{element('time')}.ariaValueText"))
+        words.append("".join(texts(tab, "#stage-lower-lens text")))
+    first = [one for one, moment in zip(words, said, strict=True) if "bounce 1" in moment]
+    sticks = ["spring stretches", "point at rest, spring stretched most"]
+    sticks = [f"sticks:{words}" for words in [*sticks, "spring stretches the other way"]]
+    assert first == [*sticks, "slips:friction at its limit"]
+    assert [moment for moment in said if "bounce" not in moment] == [
+        *["in flight, 10 times slower"] * 3,
+        "the end",
+    ]
+    assert said[0] == "bounce 1, 1 % of the contact is over"
+    # After the end it begins again.
+    click(tab, "do-moment")
+    assert "bounce 1, 1 %" in tab.evaluate(f"{element('time')}.ariaValueText")
+
+
+# ---- first a question
+
+
+def test_who_comes_without_a_throw_is_asked_before_he_sees(show):
+    for query in ("", "?stage&ask"):
+        tab = show(query=query)
+        for step in range(3):
+            seen = tab.evaluate("document.body.innerText")
+            # No answer, and one ball, before both balls are compared; no words of a contact.
+            assert not re.search("comes? back|came back|recoil|turns? round|m/s forw", seen), seen
+            assert ("spring along the surface" in seen) == (step == 2), seen
+            words = "[...document.querySelectorAll('.lens-words, .lane-name')]"
+            assert tab.evaluate(f"{words}.every((e) => !e.getClientRects().length)")
+            assert is_drawn(tab, "stage-upper-ball") == (step == 2)
+            assert is_drawn(tab, "stage-guess") == (step < 2)
+            if step == 0:
+                assert "on its way up after its third bounce?" in text(tab, "sentence")
+                assert tab.evaluate(f"{element('play')}.disabled")
+                press(tab, "stage-guess", "ArrowRight")
+                x, y = middle(tab, "stage-svg")
+                drag(tab, "mouse", (x + 100, y))
+                assert text(tab, "stage-guess-word") == "your guess"
+                # No moment of this throw is seen but its end.
+                click(tab, "play")
+                assert value(tab, "time") == pytest.approx(tab.evaluate("stage.duration()"))
+                guess = float(tab.evaluate(f"{element('stage-guess')}.ariaValueNow"))
+                off = tab.evaluate("stage.last_place()") - guess
+                assert text(tab, "sentence") == f"It is {-off:.1f} m left of your guess."
+            else:
+                click(tab, "do-ask")
+        assert not tab.evaluate(f"{element('do-ask')}.checkVisibility()")
+        type_in(tab, "time", "99")
+        assert "came back" in text(tab, "sentence")
+    # Who is asked about a throw does not change it.
+    tab = show()
+    press(tab, "stage-grasp", "ArrowRight")
+    x, y = middle(tab, "stage-grasp")
+    drag(tab, "mouse", (x, y), (x + 70, y + 10))
+    assert (value(tab, "angle"), value(tab, "speed"), value(tab, "time")) == (45, 7.1, 0)
+    # A lecture that asks explains by itself.
+    tab = show(SUPERBALL, query="?stage&ask")
+    press(tab, "stage-guess", "ArrowRight")
+    click(tab, "play")
+    click(tab, "do-ask")
+    assert "the lecture comes back to it" in text(tab, "sentence")
+    assert not tab.evaluate(f"{element('do-ask')}.checkVisibility()")
+    # Who has a throw, or skips the question, is not asked.
+    assert "The same throw twice" in text(show(SUPERBALL), "sentence")
+    tab = show()
+    click(tab, "do-ask")
+    assert "The same throw twice" in text(tab, "sentence")
+    # Back undoes a change, and neither asks again nor brings the other ball.
+    click(tab, "do-lone")
+    for angle in (20, 30):
+        type_in(tab, "angle", angle)
+        wait_for(tab, f"location.hash.startsWith('#angle={angle}&')", True)
+    for angle in ("20", "45"):
+        tab.evaluate("history.back()")
+        wait_for(tab, f"{element('angle')}.value", angle)
+        assert not is_drawn(tab, "stage-upper-ball") and is_drawn(tab, "controls")
+    assert tab.evaluate(f"{element('do-lone')}.ariaPressed") == "true"
+    assert tab.evaluate("location.hash") == ""
+    # Who writes a throw behind the address is asked no more.
+    tab = show()
+    tab.evaluate(f"location.hash = '{SUPERBALL}'")
+    wait_for(tab, "document.documentElement.dataset.asks ?? ''", "")
+
+
+def test_a_hall_sees_a_large_spring_and_one_ball(show):
+    width = "document.querySelector('#stage-lower-lens .glass').getBoundingClientRect().width"
+    tab = show(SUPERBALL, width=1440, height=900, query="?stage&hall")
+    click(tab, "do-moment")
+    assert tab.evaluate(width) == pytest.approx(250, abs=5)
+    for shown in ([False, True], [True, True]):
+        click(tab, "do-lone")
+        assert [is_drawn(tab, f"stage-{lane}-ball") for lane in ("upper", "lower")] == shown
+        assert tab.evaluate(width) == pytest.approx(250 if shown[0] else 375, abs=5)
+        assert is_drawn(tab, "stage-upper-lens") == shown[0]
+    assert not tab.evaluate(f"{element('compliance')}.checkVisibility()")
+
+
+def test_a_copy_inside_a_notebook_has_its_throw_inside(explorer, show, tmp_path):
+    page = explorer.read_text(encoding="utf-8")
+    inside = page.replace('<html lang="en">', f'<html lang="en" data-address="?stage#{SUPERBALL}">')
+    tab = show()
+    tab.open("data:text/html,<iframe style='width:900px;height:700px'></iframe>")
+    tab.evaluate(f"document.querySelector('iframe').srcdoc = {json.dumps(inside)}")
+    inner = "document.querySelector('iframe').contentDocument"
+    wait_for(tab, f"{inner}?.getElementById('table')?.value", "0.7")
+    tab.evaluate(f"{inner}.getElementById('do-moment').click()")
+    wait_for(tab, f"{inner}.getElementById('stage-moment').textContent", "bounce 1, in slow motion")
 
 
 @pytest.mark.parametrize(
@@ -211,20 +343,7 @@ def test_a_ball_is_pulled_and_flies(how, lane, ball, spin, show):
     assert pulled == pytest.approx(wanted, abs=0.2)
     drag(tab, how, (x, y), (x + 35, y + 15), ends[1])
     assert {name: value(tab, name) for name in wanted} == wanted
-    assert value(tab, "time") == pytest.approx(tab.evaluate("stage.duration()"))
-
-
-def place_in(tab, chart, wanted):
-    """Where a value of the horizontal axis of a chart is on the screen, by the labels there."""
-    middle(tab, chart)
-    labels = tab.evaluate(
-        f"[...document.querySelectorAll('#{chart} .tick[text-anchor=middle]')].map((e) => {{"
-        " const { x, width } = e.getBoundingClientRect();"
-        " return [x + width / 2, +e.textContent.replace('\u2212', '-')]; })"
-    )
-    slope, start = np.polyfit(*np.transpose(labels), 1)
-    top = tab.evaluate(f"{element(chart)}.getBoundingClientRect().y")
-    return (wanted - start) / slope, top + 60
+    assert value(tab, "time") == pytest.approx(tab.evaluate("stage.moments()[0]"))
 
 
 # Shows the first bounce at a share of its contact; a share of 1 is just after it.
@@ -254,25 +373,6 @@ def test_all_say_the_same_direction_of_a_contact_point_that_comes_backwards(show
         "the spring recoiled and threw the contact point back, .*sets off, .* m/s forwards",
         text(tab, "sentence"),
     )
-
-
-def test_the_chart_is_dragged(show):
-    state = f"angle=51&friction=0.5&restitution=0.5{SOLID}"
-    tab = show(state)
-    # The chart says the incidence of the contact point, to which spin adds.
-    for spin in (0, 40):
-        go(tab, f"{state}&spin={spin}")
-        drag(tab, "mouse", place_in(tab, "incidence", math.tan(math.radians(45)) / 0.5))
-        along, up = tab.evaluate("(({ along, up }) => [along, up])(page.impact().before)")
-        assert abs(along - 0.025 * spin + up) < 0.12
-    # A finger that scrolls the page changes nothing; one that moves along, or taps, does.
-    tab = show(state, width=390)
-    scrolls, along, tap = [(0, -12), (4, -60), (60, -120)], [(12, 2), (60, 8)], []
-    for moves, changes in ((scrolls, False), (along, True), (tap, True)):
-        go(tab, state)
-        x, y = place_in(tab, "incidence", 4.0)
-        drag(tab, "touch", (x, y), *[(x + right, y + down) for right, down in moves])
-        assert (value(tab, "angle") != 51) == changes
 
 
 def test_the_show_runs_pauses_and_ends(show):
@@ -441,7 +541,8 @@ def test_numbers_and_pictures_are_saved(show):
         " fillText.call(this, text, ...place); };"
         " const { serializeToString } = XMLSerializer.prototype;"
         " XMLSerializer.prototype.serializeToString = function (drawing) {"
-        " window.written += drawing.textContent; return serializeToString.call(this, drawing); } }"
+        " window.written += drawing.textContent; window.drawn = drawing;"
+        " return serializeToString.call(this, drawing); } }"
     )
     for button, name in (("ball", "stage.png"), ("curve", "curve.png")):
         click(tab, f"do-{button}")
@@ -453,6 +554,11 @@ def test_numbers_and_pictures_are_saved(show):
         assert np.median(picture[..., :3]) > 0.9
     assert tab.evaluate("end") <= 1, "a line is wider than its picture"
     written = tab.evaluate("written")
+    # One ball is alone in its picture, too, which has no style sheet.
+    for display in ("none", "inline"):
+        click(tab, "do-lone")
+        click(tab, "do-ball")
+        wait_for(tab, "drawn.querySelector('#stage-upper')?.style.display", display)
     assert "v₁(t_f)/(µv₂(0)) of the contact" in written and "Press Throw" not in written
 
 

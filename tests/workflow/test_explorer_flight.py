@@ -1,16 +1,22 @@
 """The balls of the explorer fly and bounce as mechanics says, and the stage shows them."""
 
+import functools
+import itertools
 import json
 import math
 import re
 from pathlib import Path
+from urllib.parse import parse_qsl
 
 import numpy as np
 import pytest
 import yaml
 
 from planarimpact import lumped
+from stronge1994 import settings
 from stronge1994.explorer import page as write_explorer
+from tests.workflow import node
+from tests.workflow.project import config
 
 CONTACT = "(x) => ({ state: solver.rebound(x, one.mass_ratio, 1.2, one.restitution) })"
 # Each flight with the ball at nine instants.
@@ -94,11 +100,12 @@ def test_a_ball_that_does_not_bounce_stays_on_the_floor(scripts):
 
 # The superball under a table, as a student throws it, and what is said after each bounce.
 BOUNCES = """(given, share) => {
-  const groups = (x) => ({ x, mu: given.friction, beta: given.mass_ratio, zeta2: 1.5 * share,
-    e: given.restitution });
-  const bounces = (style) => flight.fly(given, (x) => models.contact(style, groups(x)))
-    .filter(({ kind }) => kind === "bounce");
-  return { upper: bounces("rigid"), lower: bounces("lumped") };
+  const groups = { mu: given.friction, beta: given.mass_ratio, zeta2: (given.zeta2 ?? 1.5) * share,
+    e: given.restitution };
+  const bounces = (style) =>
+    flight.bounces(flight.fly(given, (x) => models.contact(style, { ...groups, x })));
+  return { upper: bounces("rigid"), lower: bounces("lumped"),
+    given: { ...given, groups, compliance: share } };
 }"""
 STORIES = f"""(compliance) => {{
   const given = {{ angle: 45, speed: 7.07, spin: 0, friction: 0.8, mass_ratio: 3.5,
@@ -138,12 +145,17 @@ def test_the_story_of_a_throw_says_what_each_bounce_has_done(scripts):
     assert without[4].startswith("Both balls went on.") and "recoiled" not in "".join(without)
     # With half of the compliance the contact ends at a worse moment.
     assert "Timing decides" in scripts.map(STORIES, [0.5])[0][4]
+    # Of one ball alone only its own is told, and before it flies nothing.
+    alone = scripts.map(STORIES.replace("> 0)", "> 0, true)"), [1])[0]
+    assert alone[0] == "" and alone[3] == alone[4]
+    assert alone[1].startswith("After bounce 1 (floor). The spring recoiled and threw")
+    assert not re.search("Without|lower", "".join(alone))
 
 
 TOLD = f"""([given, share]) => {{
   const both = ({BOUNCES})(given, share);
   return [0, 1].map((over) => words.story(both, both.lower.length, over === 1, share > 0)).concat(
-    Object.values(both).map((all) => all.map((one) => [one.x, one.contact.state.velocity,
+    [both.upper, both.lower].map((all) => all.map((one) => [one.x, one.contact.state.velocity,
       one.ball.along, one.after.along, Math.min(...one.contact.rows.map((row) => row.velocity)),
       one.contact.rows.some((row) => row.sticks)])));
 }}"""
@@ -171,6 +183,95 @@ def test_a_story_is_true_of_every_throw(scripts):
             assert all(one[3] > 0 for one in upper) and ways[0] and not ways[-1]
             assert ways == sorted(ways, reverse=True) and all(one[1] < 0 for one in lower)
     assert min(endings.values()) > 0, endings
+
+
+def menu():
+    """Every ball and figure of the menu on floor and under a table, with spins, for all e."""
+    names = ("angle", "friction", "restitution", "poisson_ratio")
+    opening = dict(mass_ratio=3.5, speed=5, spin=0, table=0, radius=25, gravity=9.81, compliance=1)
+    text = (node.FOLDER / "materials.yaml").read_text(encoding="utf-8")
+    presets = write_explorer.presets(settings.of_explorer(config()))
+    found = [ball["address"] for ball in write_explorer.balls(text)]
+    found += map(write_explorer.address, presets.values())
+    for address in found:
+        own = opening | {name: float(one) for name, one in parse_qsl(address)}
+        assert set(names) <= set(own)
+        nu = own.pop("poisson_ratio")
+        own |= {"zeta2": (2 - nu) / (2 * (1 - nu)), "radius": own["radius"] / 1000}
+        for table, spin, e in itertools.product(
+            {0.0, 0.7, own["table"]},
+            {-200.0, 0.0, 200.0, own["spin"]},
+            {0.0, 0.3, own["restitution"], 1.0},
+        ):
+            yield own | {"table": table, "spin": spin, "restitution": e}
+
+
+def velocities(given, reverse):
+    """Velocities along the floor after each bounce; `reverse` is v1 after a bounce, over mu v2."""
+    gap = given["table"] - 2 * given["radius"] if given["table"] > 4 * given["radius"] else 0
+    angle, g, radius = math.radians(given["angle"]), given["gravity"], given["radius"]
+    along, up = given["speed"] * math.sin(angle), given["speed"] * math.cos(angle)
+    spun, on_floor, found = radius * given["spin"], True, []  # r times the spin, clockwise
+    while len(found) < (3 if gap else 5) and (up >= 0.3 or not found):
+        side = -1 if on_floor else 1
+        unit = given["friction"] * up
+        change = unit * reverse((along + side * spun) / unit) - (along + side * spun)
+        along += change / given["mass_ratio"]
+        spun += side * (1 - 1 / given["mass_ratio"]) * change
+        found.append(along)
+        up *= given["restitution"]
+        if not up:
+            break
+        if gap and not (on_floor and up**2 <= 2 * g * gap):
+            up = math.sqrt(up**2 + (-2 if on_floor else 2) * g * gap)
+            on_floor = not on_floor
+    return found
+
+
+def springs(given, share):
+    """The same, with a share of the tangential compliance of the ball."""
+    zeta2 = share * given["zeta2"]
+    solve = functools.partial(lumped.rebound, mass_ratio=given["mass_ratio"], stiffness_ratio=zeta2)
+    return velocities(
+        given,
+        lambda x: (
+            math.copysign(1, x) * float(solve(abs(x), restitution=given["restitution"]).velocity)
+        ),
+    )
+
+
+def test_the_last_sentence_is_true_by_what_happened_and_by_what_could_happen(scripts):
+    """Each entry of the menu: what turns a ball that went on, and that nothing can."""
+    throws = list(itertools.product(menu(), (1.0, 0.5)))
+    counts = dict.fromkeys(("Timing decides", "No spring can", "came back", "Under a table"), 0)
+    chance = np.random.default_rng(7)
+    for (given, share), told in zip(throws, scripts.map(TOLD, throws), strict=True):
+        ending = told[1]
+        for words in counts:
+            counts[words] += words in ending
+        if "went on, too" in ending:
+            assert min(springs(given, share)) > 0.05
+            other = re.search(r"compliance ([\d.]+) the spring", ending)
+            least = re.search(r"at least ([\d.]+) m/s", ending)
+            assert bool(other) != bool(least)
+            if under := re.search(r"Under a table at ([\d.]+) m it comes back", ending):
+                assert springs(given | {"table": float(under[1])}, share)[-1] < -0.05
+            if other:
+                assert springs(given, float(other[1]))[-1] < -0.05
+            kept = [
+                min(velocities(given, lambda x, one=one: x * (1 - 2 * next(one))))
+                for shares in [*itertools.product((0, 1), repeat=3), *chance.random((20, 3))]
+                for one in [itertools.cycle(shares)]
+            ]
+            if least:
+                assert min(kept) > float(least[1]) - 0.051
+            # On a bare floor a ball without spin keeps at least 3/7.
+            if not given["table"] and not given["spin"] and given["mass_ratio"] == 3.5:
+                along = given["speed"] * math.sin(math.radians(given["angle"]))
+                assert float(least[1]) == pytest.approx(3 / 7 * along, abs=0.051)
+        elif "came back" in ending:
+            assert springs(given, share)[-1] < -0.05 and given["table"]
+    assert min(counts.values()) > 0, counts
 
 
 def test_a_show_ends_soon(scripts):

@@ -3,23 +3,29 @@
 import ast
 import inspect
 import json
+import os
 import re
+import subprocess
 import sys
+import venv
+from pathlib import Path
 
 import matplotlib
 import matplotlib.pyplot as plt
 import nbformat
 import pytest
+from nbconvert.filters import strip_ansi
 
 from planarimpact.lumped import stick_slip
-from stronge1994.pages import lectures, stated_numbers, student
+from stronge1994 import versions
+from stronge1994.pages import lectures, stated_numbers, structure, student
 from tests.workflow.project import ROOT
 
 TEMPLATES = {
     "page": ROOT / "workflow/report/notebook.html",
     "slides": ROOT / "workflow/report/slides.html",
 }
-KINDS = "page", "slides", "answers", "student"
+KINDS = "page", "slides", "answers", "student", "after"
 PAGES = "", "slides_", "answers_"  # how the files of these pages begin
 FOLDER = ROOT / "workflow/notebooks"
 NAMES = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
@@ -59,7 +65,9 @@ def executed(book, sliders=False):
     with matplotlib.rc_context():
         try:
             for cell in code_of(book):
-                source = re.sub(r"^ +%pip .*", "    raise", cell.source, flags=re.M)
+                source = re.sub(r"^%xmode .*", "", cell.source, flags=re.M)
+                source = re.sub(r"^ +%pip .*", "    raise", source, flags=re.M)
+                source = re.sub(r"^%%after .*", "", source)
                 exec(compile(source, cell.id, "exec"), names)
                 names |= {"play": at_both_ends} if sliders and "play" in names else {}
                 plt.close("all")
@@ -160,17 +168,214 @@ def test_whoever_opens_a_lecture_sees_its_checks_folded(name):
 def test_pages_are_built_and_need_nothing_but_the_explorer(first_run, name):
     project, _ = first_run
     pages = {kind: (project / f"figures/{kind}{name}.html").read_text() for kind in PAGES}
-    for page in pages.values():
-        assert not re.search(r'src="(?!explorer\.html\?stage#|data:)|url\(|@import', page)
-        linked = {file.split("#")[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
-        assert all(re.fullmatch(r"[\w/]+\.(html|csv|ipynb)", file) for file in linked)
+    linked_by = {}
+    for kind, page in pages.items():
+        assert not re.search(r'src="(?!explorer\.html\?stage[&;a-z]*#|data:)|url\(|@import', page)
+        linked = {re.split("[?#]", file)[0] for file in re.findall(r'href="([^#"][^"]*)"', page)}
+        linked_by[kind] = linked
+        assert all(
+            re.fullmatch(r"[\w/]+\.(html|csv|ipynb)|planarimpact-[\w.-]+\.whl", file)
+            for file in linked
+        )
         assert not [file for file in linked if file.startswith("answers_")], "of the teacher"
     told = {kind: "Answer to exercise" in page for kind, page in pages.items()}
     assert told == {"": False, "slides_": False, "answers_": True}
     for kind in ("", "slides_"):
-        assert f'href="student_{name}.ipynb"' in pages[kind]
+        needed = {f"student_{name}.ipynb", f"after_{name}.ipynb", versions.WHEEL}
+        assert needed <= linked_by[kind]
     log = (project / f"results/logs/lecture_{name}.log").read_text()
     assert not re.search("warning|error|traceback", log, flags=re.I), log
+
+
+def test_the_plan_of_one_lesson_names_the_slides_that_are_there(first_run):
+    name = "why_a_superball_comes_back"
+    page = (first_run[0] / f"figures/slides_{name}.html").read_text()
+    slides = dict(enumerate(page.split('<section class="slide')[1:], 1))
+    text = "\n".join(cell.source for cell in lecture(name).cells)
+    rows = re.findall(r"^\| \d+ to \d+ \| (.*?) \| (.*?) \|$", text, flags=re.M)
+    planned = {words: [int(one) for one in re.findall(r"\d+", numbers)] for numbers, words in rows}
+    begins = {"hands up": "<iframe", "the question": "The question"}
+    begins |= {
+        "predict": "Predict.",
+        "vote": "Predict.",
+        "the spring": "A spring",
+        "summary": "Summary",
+    }
+    assert len(planned) == len(begins)
+    for (words, numbers), (first, shown) in zip(planned.items(), begins.items(), strict=True):
+        assert words.startswith(first) and shown in slides[numbers[0]], words
+    *_, spring, last = planned.values()
+    assert "<iframe" in slides[spring[-1]] and last[-1] == len(slides)
+
+
+# A lecture of one question, with what a fold may hold.
+QUESTION = "> **Predict.** How many\n> are three?"
+ONE = [
+    "# Counting",
+    f"## 1. A question\n\nWords.\n\n{QUESTION}",
+    "### The picture and the answer",
+    "print(three := 3)\nthree;",
+    "Three are 3.\n\n[Play it: *three*](../../figures/explorer.html?stage#angle=5)",
+    "#### Why",
+    "## 2. Next\n\n[Play it: more?](../../figures/explorer.html?stage&ask#angle=6)\n\nMore words.",
+    "print('later', three)",
+    "### Exercise 1",
+    "Count in [the explorer](../../figures/explorer.html#angle=7).",
+    "#### Answer to exercise 1",
+    "### Exercise 2",
+]
+
+
+def counting(*folded):
+    """That lecture, or one with these cells in its fold. What begins with p or r is code."""
+    cells = []
+    for n, source in enumerate([*ONE[:3], *folded, *ONE[6:]] if folded else ONE):
+        new = nbformat.v4.new_code_cell if source[0] in "pr" else nbformat.v4.new_markdown_cell
+        cells.append(new(source, id=f"c{n}"))
+        if source.startswith(("### The picture", "#### Answer")):
+            cells[-1].metadata["jp-MarkdownHeadingCollapsed"] = True
+        if source.startswith("#### Answer"):
+            cells[-1].metadata["tags"] = ["answer"]
+    return nbformat.v4.new_notebook(cells=cells)
+
+
+def answered(book, folder, words):
+    """The notebook of a student, run in a kernel, with these words for each prediction."""
+    for cell in code_of(book):
+        cell.source = re.sub(
+            r'^(PREDICTION_\d+ = """\n)', rf"\g<1>{words}", cell.source, flags=re.M
+        )
+    lectures._execute(book, str(folder / "book.ipynb"))
+    return {cell.id: cell.outputs for cell in code_of(book)}
+
+
+def test_a_fold_ends_at_a_heading_of_its_own_level_or_a_higher_one():
+    assert structure.folds(counting().cells) == [0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0]
+    twice = [*counting().cells, *counting().cells[:5]]
+    assert structure.folds(twice)[-5:] == [0, 0, 2, 2, 2]
+
+
+def test_a_page_folds_what_the_notebook_folds_and_has_a_box_for_each_prediction(tmp_path):
+    last = tmp_path / "counting.ipynb"
+    last.write_text(nbformat.writes(counting()), encoding="utf-8")
+    made = run(last, tmp_path)
+    for kind in ("page", "answers"):
+        fold = re.search(r'<details class="fold">.*?(?=<h2)', made[kind], flags=re.S)[0]
+        assert "Three are 3." in fold and "<h3>Why</h3>" in fold
+        assert fold.count("<details") == fold.count("</details>") == 2
+    assert "<h3>Why</h3>" in made["slides"] and "<details" not in made["slides"]
+    boxes = {kind: made[kind].count("<textarea") for kind in ("page", "answers", "slides")}
+    assert boxes == {"page": 1, "answers": 0, "slides": 0}
+    for kind, flags in (("page", ["", "&amp;ask"]), ("slides", ["&amp;hall", "&amp;hall&amp;ask"])):
+        assert re.findall(r'src="explorer\.html\?stage([^#]*)#angle=[56]"', made[kind]) == flags
+    captions = re.findall(r"<p>(Play it.*?)<a href=\"([^\"]*)", made["page"])
+    assert captions == [
+        ("Play it: <em>three</em>. ", "explorer.html#angle=5"),
+        ("Play it: more? ", "explorer.html?stage&amp;ask#angle=6"),
+    ]
+
+
+def test_a_fold_at_the_end_of_a_lecture_is_closed(tmp_path):
+    book = counting()
+    book.cells = book.cells[:4]
+    (tmp_path / "last.ipynb").write_text(nbformat.writes(book), encoding="utf-8")
+    page = run(tmp_path / "last.ipynb", tmp_path)["page"]
+    assert page.count("<details") == page.count("</details>") == 2
+
+
+def test_what_a_fold_says_is_in_a_notebook_of_its_own():
+    book = student.notebook(counting(), FOLDER, "counting")
+    cells = [cell.source for cell in book.cells if cell.id not in ("begin", "install", "tools")]
+    assert cells == [
+        ONE[0],
+        ONE[1],
+        student.PREDICTION.format(fold=1),
+        f"%%after 1\n{ONE[3]}",
+        '%%after 1\nstage("angle=5")',
+        student.SEEN.format(fold=1, name="counting"),
+        "## 2. Next\n\nPlay it: more?",
+        'stage("angle=6", ask=True)',
+        "More words.",
+        *ONE[7:9],
+        "Count in the explorer (`explorer.html#angle=7`).",
+        "# Exercise 1: calculate here.",
+        ONE[11],
+        "# Exercise 2: calculate here.",
+    ]
+    after = student.after(counting(), FOLDER, "counting")
+    assert [cell.source for cell in after.cells[1:]] == [
+        f"## Prediction 1\n\n{QUESTION}",
+        "Three are 3.\n\nPlay it: *three* (in your notebook)",
+        "### Why",
+    ]
+    for one in (book, after):
+        nbformat.validate(one)
+        assert len({cell.id for cell in one.cells}) == len(one.cells)
+
+
+SENTENCE = "Write your prediction in PREDICTION_1 first, then run this cell again.\n"
+
+
+def test_a_student_sees_nothing_before_a_prediction(tmp_path):
+    """Names are defined all the same, so that later cells run."""
+    (tmp_path / "explorer.html").write_text('<!DOCTYPE html><html lang="en">"A page"</html>')
+    for words, shown in ((" ", SENTENCE), ('I said "three"', "3\n")):
+        book = student.notebook(counting(), FOLDER, "counting")
+        seen = answered(book, tmp_path, words)
+        assert [one["text"] for one in seen["c3"]] == [shown]
+        assert seen["c7"][0]["text"] == "later 3\n"
+        frame, line = seen["c6-stage-0"]
+        assert line["text"] == "angle 6. Its address: explorer.html?stage&ask#angle=6\n"
+        kept = "&lt;html data-address=&quot;?stage&amp;amp;ask#angle=6&quot; lang=&quot;en&quot;"
+        assert kept in frame["data"]["text/html"]
+        played = [one.get("text") for one in seen["c4-stage-0"]]
+        assert played == (
+            [SENTENCE]
+            if shown == SENTENCE
+            else [None, "angle 5. Its address: explorer.html#angle=5\n"]
+        )
+
+
+def test_a_stage_without_the_explorer_says_what_is_missing(tmp_path):
+    seen = answered(student.notebook(counting(), FOLDER, "counting"), tmp_path, "")
+    said = "angle 6. To play it, put the file explorer.html beside this notebook.\n"
+    assert [one["text"] for one in seen["c6-stage-0"]] == [said]
+
+
+@pytest.mark.parametrize("words", ["", "Three."])
+def test_a_cell_that_fails_says_so_once_whatever_was_predicted(tmp_path, words):
+    source = "print('begins')\nraise ValueError('no number')"
+    book = student.notebook(counting(source), FOLDER, "counting")
+    with pytest.raises(lectures.NotebookError, match="ValueError: no number"):
+        answered(book, tmp_path, words)
+    printed, error = next(cell.outputs for cell in book.cells if cell.id == "c3")
+    assert printed["text"] == "begins\n" and error["evalue"] == "no number"
+
+
+@pytest.mark.parametrize("words", ["", "It comes back."])
+@pytest.mark.parametrize("name", NAMES)
+def test_the_notebook_of_a_student_runs_to_its_end(name, words, first_run, tmp_path):
+    """Before its predictions it shows no picture of an answer, and after them all."""
+    book = nbformat.read(first_run[0] / f"figures/student_{name}.ipynb", as_version=4)
+    seen = answered(book, tmp_path, words)
+    waiting = [cell for cell in code_of(book) if cell.source.startswith("%%after")]
+    count = len([one for one in seen if one.startswith("prediction-")])
+    assert count == max(structure.folds(lecture(name).cells)) >= 4 and len(waiting) > count
+    if words:
+        shown = {
+            cell.source.split()[1]
+            for cell in waiting
+            if any("image/svg+xml" in one.get("data", {}) for one in cell.outputs)
+        }
+        assert len(shown) == count
+        assert not any("Text(" in str(cell.outputs) for cell in waiting), "a semicolon hides it"
+    else:
+        for cell in waiting:
+            sentence = SENTENCE.replace("_1", f"_{cell.source.split()[1]}")
+            assert [one["text"] for one in cell.outputs] == [sentence]
+    folds = zip(structure.folds(lecture(name).cells), lecture(name).cells, strict=True)
+    said = [cell.source for fold, cell in folds if fold and cell.cell_type == "markdown"]
+    assert not {cell.source for cell in book.cells} & set(said)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -195,7 +400,7 @@ def of_student(tmp_path, monkeypatch):
     def made(name, results=None):
         if results:
             (tmp_path / "results").symlink_to(results)
-        return student.notebook(lecture(name), cells)
+        return student.notebook(lecture(name), cells, name)
 
     (tmp_path / "empty").mkdir()
     monkeypatch.chdir(tmp_path / "empty")
@@ -205,14 +410,14 @@ def of_student(tmp_path, monkeypatch):
 # What a student may change first, in every cell that has it.
 EDITS = {
     "as it is": ("^", ""),
-    "friction": (r"\b((?:friction|mu) ?= ?)\d[\d.e-]*", r"\g<1>0.5"),
-    "restitution": (r"\b((?:restitution|e) ?= ?)\d[\d.e-]*", r"\g<1>0.6"),
-    "material": (r"\b(poisson_ratio ?= ?)\d[\d.e-]*", r"\g<1>0.4"),
-    "steel": (r"\b(poisson_ratio ?= ?)\d[\d.e-]*", r"\g<1>0.3"),
+    "friction": (r"\b((?i:friction|mu) ?= ?)\d[\d.e-]*", r"\g<1>0.5"),
+    "restitution": (r"\b((?i:restitution|e) ?= ?)\d[\d.e-]*", r"\g<1>0.6"),
+    "material": (r"\b((?i:poisson_ratio) ?= ?)\d[\d.e-]*", r"\g<1>0.4"),
+    "steel": (r"\b((?i:poisson_ratio) ?= ?)\d[\d.e-]*", r"\g<1>0.3"),
     "size": (r"\b((?:radius|diameter) ?= ?)\d[\d.e-]*", r"\g<1>0.04"),
     "body": (r"\b((?:mass_ratio|BETA) ?= ?)\d[\d.e-]*", r"\g<1>2.5"),
     "constants": (r"(?m)^([A-Z_]+ = )(\d+\.\d+)\b", lambda one: f"{one[1]}{0.8 * float(one[2])}"),
-    "slow": (r"\b((?:tangential|speed) ?= ?)\d[\d.e-]*", r"\g<1>1.5"),
+    "slow": (r"\b((?i:tangential|speed|along|down) ?= ?)\d[\d.e-]*", r"\g<1>1.5"),
 }
 
 
@@ -236,10 +441,12 @@ def test_the_notebook_for_students_has_no_answers_and_all_that_it_needs(
 ):
     book = of_student(name, first_run[0] / "results")
     nbformat.validate(book)
-    text = nbformat.writes(book)
-    assert len(text) < 150_000 and not re.search(r"Answer to exercise|\.\./|\?stage|mplstyle", text)
-    assert code_of(book)[0].id == "install" and book.metadata.kernelspec.name == "python3"
+    assert len(nbformat.writes(book)) < 150_000 and book.metadata.kernelspec.name == "python3"
+    assert [cell.id for cell in code_of(book)[:2]] == ["install", "tools"]
+    text = "\n".join(cell.source for cell in book.cells if cell.id != "tools")
+    assert not re.search(r"Answer to exercise|\.\./|\?stage|\(explorer\.html#|mplstyle", text)
     kept = {cell.id: cell for cell in lecture(name).cells}
+    assert len(kept) == len(lecture(name).cells)
     tags = {tag for cell in book.cells for tag in kept.get(cell.id, cell).metadata.get("tags", [])}
     games = [
         cell.source for cell in code_of(book) if re.search(r"^play\(", cell.source, flags=re.M)
@@ -253,21 +460,93 @@ def test_the_notebook_for_students_has_no_answers_and_all_that_it_needs(
     assert [cell.id for cell in made.cells] == [cell.id for cell in book.cells]
 
 
+@pytest.mark.parametrize(
+    ("name", "place", "derived"),
+    [
+        ("why_a_superball_comes_back", "numbers", {"BETA", "THROWN", "bounce", "throw"}),
+        ("why_a_superball_comes_back", "readings", {"EXAMPLE", "readings", "FILMED"}),
+        ("where_friction_turns_round", "numbers", {"ZETA2", "PACE"}),
+        ("choosing_a_model", "numbers", {"GROUPS", "yardstick"}),
+    ],
+)
+def test_a_number_that_is_changed_reaches_what_follows_from_it(name, place, derived, first_run):
+    """Who runs only the cell that he changed has no old numbers in those below."""
+    book = nbformat.read(first_run[0] / f"figures/student_{name}.ipynb", as_version=4)
+    (cell,) = [cell for cell in code_of(book) if cell.id == place]
+    assert "source_hidden" not in str(cell.metadata)
+    body = ast.parse(cell.source).body
+    names = {
+        node.id
+        for part in body
+        for node in ast.walk(part)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    }
+    assert derived <= names | {part.name for part in body if hasattr(part, "name")}
+
+
 def test_a_student_gets_pictures_and_installs_what_a_cell_imports(tmp_path):
     (tmp_path / "notebooks").mkdir()
     (tmp_path / "drawing.svg").write_text("<svg/>")
     assert student.text("![A ball](../drawing.svg)", tmp_path / "notebooks") == (
         '<img alt="A ball" src="data:image/svg+xml;base64,PHN2Zy8+">'
     )
-    said = student.install("import pandas as pd\nfrom scipy.optimize import brentq")
-    assert "import pandas, planarimpact, scipy\n" in said
-    assert '%pip install "{WHERE}" pandas\n' in said
+    said = student.install("import pandas as pd\nfrom planarimpact import lumped")
+    assert "import numpy, pandas, scipy\n" in said
+    assert f"%pip install -q ./{versions.WHEEL} numpy pandas scipy\n" in said
+
+
+@pytest.fixture
+def empty_python(tmp_path):
+    """A Python with all that ours has but planarimpact, and its folder of packages."""
+    venv.create(tmp_path / "venv", symlinks=True)
+    python = tmp_path / "venv" / Path(sys.executable).relative_to(sys.prefix)
+    (packages,) = (tmp_path / "venv").glob("lib/python*/site-packages")
+    for path in Path(nbformat.__file__).parents[1].iterdir():
+        if not re.match(r"planarimpact|__editable__", path.name) and path.suffix != ".pth":
+            (packages / path.name).symlink_to(path)
+    return python, packages
+
+
+@pytest.mark.parametrize("case", ["alone", "beside a clone", "older", "elsewhere", "no wheel"])
+def test_the_first_cell_installs_the_wheel_beside_it_and_asks_no_index(
+    case, empty_python, first_run, tmp_path
+):
+    (python, packages), folder = empty_python, tmp_path / "My lectures"
+    folder.mkdir()
+    cell = student.install("import numpy")
+    if case == "beside a clone":
+        (folder / "planarimpact/src/planarimpact").mkdir(parents=True)
+        cell = f"import planarimpact\n{cell}"
+    if case == "older":
+        (packages / "planarimpact").mkdir()
+        (packages / "planarimpact/__init__.py").write_text('__version__ = "0.3.0"')
+    if case == "elsewhere":  # as in VS Code
+        cell = f"__vsc_ipynb_file__ = {str(folder / 'a.ipynb')!r}\n{cell}"
+    if case != "no wheel":
+        (folder / versions.WHEEL).symlink_to(first_run[0] / f"figures/{versions.WHEEL}")
+    ending = "import planarimpact\nprint(planarimpact.__file__, planarimpact.lumped.rebound(8.0))"
+    (tmp_path / "cell.ipy").write_text(f"{cell}\n{ending}", encoding="utf-8")
+    result = subprocess.run(
+        [python, "-m", "IPython", "--no-banner", tmp_path / "cell.ipy"],
+        cwd=tmp_path if case == "elsewhere" else folder,
+        env={"PATH": os.environ["PATH"], "IPYTHONDIR": str(tmp_path), "PIP_NO_INDEX": "1"},
+        capture_output=True,
+        text=True,
+    )
+    said = strip_ansi(result.stdout)
+    if case == "no wheel":
+        error = (
+            rf"\nFileNotFoundError: Put {versions.WHEEL} .* {folder} .* run this cell again\.\s*$"
+        )
+        assert re.search(error, said), said
+    else:
+        assert f"{packages}/planarimpact/__init__.py Rebound(" in said, said
 
 
 def test_a_file_that_a_student_lacks_is_refused(tmp_path):
     book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("open('../a.txt')", id="a")])
     with pytest.raises(ValueError, match=r"^a: a student has no such file: \"open\('\.\./a"):
-        student.notebook(book, tmp_path)
+        student.notebook(book, tmp_path, "lost")
 
 
 @pytest.mark.parametrize(

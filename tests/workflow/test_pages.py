@@ -240,6 +240,44 @@ def test_the_report_prints_on_twelve_pages_with_nothing_clipped(figures, tab):
     assert tab.problems == []
 
 
+# What a reader would miss of a slide: parts that are not on it.
+LOST = """[...document.querySelectorAll('.slide')].flatMap((slide, n) => {
+  const all = slide.getBoundingClientRect();
+  const parts = [...slide.querySelectorAll('h1, h2, h3, h4, p, li, td, pre, img, svg')];
+  return parts.filter((part) => {
+    const { height, top, right, bottom } = part.getBoundingClientRect();
+    return !(height && top >= all.top && right <= all.right && bottom <= all.bottom);
+  }).map((part) => `${n + 1}: ${part.outerHTML.slice(0, 60)}`);
+})"""
+LECTURES = sorted(path.stem for path in (ROOT / "workflow/notebooks").glob("*.ipynb"))
+
+
+@pytest.mark.parametrize("name", LECTURES)
+def test_each_slide_is_printed_whole_on_a_page_whatever_the_window(figures, tab, name):
+    tab.open((figures / f"slides_{name}.html").as_uri())
+    tab.resize(703, 1030)
+    tab.prefer(media="print")
+    try:
+        assert tab.evaluate(LOST) == []
+        pdf = base64.b64decode(tab.call("Page.printToPDF", preferCSSPageSize=True)["data"])
+    finally:
+        tab.prefer(media="screen")
+    count = tab.evaluate("document.querySelectorAll('.slide').length")
+    assert len(re.findall(rb"/Type\s*/Page\b", pdf)) == count > 20
+
+
+def test_a_key_in_a_box_turns_no_slide(figures, tab):
+    tab.resize(1440, 900)
+    tab.open((figures / SLIDES).as_uri())
+    tab.evaluate("document.querySelector('.slide').append(document.createElement('textarea'))")
+    box = tab.page.locator("textarea")
+    for key, turned in (("a b", False), (None, True)):
+        box.press_sequentially(key) if key else box.blur()
+        tab.press(" ")
+        tab.page.wait_for_timeout(50)
+        assert (tab.evaluate("scrollY") > 100) == turned
+
+
 FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>
 <meta name="viewport" content="width=device-width, initial-scale=1"><style>
 :root { color-scheme: light dark; background: light-dark(#fff, #111); }

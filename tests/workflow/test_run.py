@@ -8,11 +8,12 @@ import re
 import signal
 import sys
 import time
+import zipfile
 
 import pytest
 import yaml
 
-from stronge1994 import tables
+from stronge1994 import tables, versions
 from stronge1994.settings import figures
 from stronge1994.verdict_table import Group
 from tests.workflow.project import LEFT, PARTS, ROOT, TIMEOUT, awaited, config, copy_of
@@ -60,6 +61,14 @@ def test_the_verdicts_of_a_good_run(first_run, inventory):
         if series.get("kind") == "computed" and not series.get("others"):
             assert row["verdict"] != "agrees", row
         assert (row["verdict"] == "passed") <= (row["group"] == Group.SOLVER), row
+
+
+def test_the_wheel_has_the_package_of_this_checkout_and_nothing_else(first_run):
+    with zipfile.ZipFile(first_run[0] / f"figures/{versions.WHEEL}") as wheel:
+        made = {name: wheel.read(name) for name in wheel.namelist() if ".dist-info/" not in name}
+    files = [path for path in (ROOT / "src/planarimpact").rglob("*") if path.is_file()]
+    files = [path for path in files if path.suffix not in (".pyc", ".md")]
+    assert made == {f"{path.relative_to(ROOT / 'src')}": path.read_bytes() for path in files}
 
 
 def test_a_file_of_its_output_is_short_and_ends_on_one_screen(first_run):
@@ -155,6 +164,7 @@ def test_pages_that_are_made_again_have_the_same_bytes_but_for_the_file_with_the
     first_run, finished
 ):
     pages = [f"figures/{name}.html" for name in ("report", "explorer", "your_copy")]
+    pages.append(f"figures/{versions.WHEEL}")
     for page in pages:
         (finished / page).unlink()
     assert finished.run(*pages).returncode == 0

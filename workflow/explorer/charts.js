@@ -20,7 +20,7 @@ const charts = (() => {
     return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
   }
 
-  // Scales, frame and ticks over the ranges x and y; `at` inverts a place on the screen.
+  // Scales, frame and ticks over the ranges x and y.
   function axes(svg, width, x, y, x_ticks = ticks(...x, width / 80)) {
     const height = tall(width);
     const y_ticks = ticks(...y, 5);
@@ -43,13 +43,7 @@ const charts = (() => {
     const frame = `<path class="axis" d="M${left},${MARGIN.top}V${bottom}H${right}"/>
       <line class="axis" x1="${left}" x2="${right}" y1="${zero}" y2="${zero}"/>`;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const at = (event) => {
-      const box = svg.getBoundingClientRect();
-      const place = ((event.clientX - box.left) / box.width) * width;
-      const share = (place - left) / (right - left);
-      return x[0] + Math.min(Math.max(share, 0), 1) * (x[1] - x[0]);
-    };
-    return { X, Y, at, bottom, markup: rows.join("") + columns.join("") + frame };
+    return { X, Y, bottom, markup: rows.join("") + columns.join("") + frame };
   }
 
   function line(style, xs, ys, { X, Y }) {
@@ -102,7 +96,7 @@ const charts = (() => {
 
   // The curves of both contacts over all incidences up to `far`, thresholds among their vertices, with
   // the present impact on each. The one with the spring lies on top, and the bands are its regimes.
-  function incidence(svg, width, impact, view, far) {
+  function incidence(svg, width, impact, view, far = widest(impact)) {
     const { mu, x, beta, zeta2, e, limit } = impact;
     const { over_angle, quantity, value, beside } = VIEWS[view];
     const to_angle = (incidence) => (Math.atan(mu * incidence) * 180) / Math.PI;
@@ -139,9 +133,8 @@ const charts = (() => {
       drawn.map(({ style, ys }) => line(`curve ${style}`, places, ys, scales)).join("") +
       drawn.map(({ style, present }) => `<circle class="present ${style}" cx="${scales.X(here)}"
         cy="${scales.Y(present)}" r="${style === "lumped" ? 6 : 4}"/>`).join("");
-    const angle = (event) => (over_angle ? scales.at(event) : to_angle(scales.at(event)));
-    return { angle, quantity, xs, curves };
+    return { quantity, xs, curves };
   }
 
-  return { incidence, widest, number };
+  return { incidence, number };
 })();

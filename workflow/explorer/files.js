@@ -57,7 +57,7 @@ const files = (() => {
     const [from, to] = [svg, copy].map((one) => [one, ...one.querySelectorAll("*")]);
     const KEPT = [
       "fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap",
-      "stroke-linejoin", "opacity", "visibility", "font-family", "font-size", "font-style",
+      "stroke-linejoin", "opacity", "display", "visibility", "font-family", "font-size", "font-style",
       "font-weight", "text-anchor", "paint-order",
     ];
     from.forEach((one, i) => {
@@ -132,23 +132,8 @@ const files = (() => {
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }
 
-  // True if the text is on the clipboard; the older way works where the newer one is not allowed.
-  async function copy(text) {
-    try {
-      await navigator.clipboard.writeText(text);
-      return true;
-    } catch {
-      const box = document.createElement("textarea");
-      const focused = document.activeElement;
-      box.value = text;
-      document.body.append(box);
-      box.select();
-      const copied = document.execCommand("copy");
-      box.remove();
-      focused?.focus();
-      return copied;
-    }
-  }
+  // True if the text is on the clipboard.
+  const copy = (text) => navigator.clipboard?.writeText(text).then(() => true, () => false);
 
   return { csv, picture, plain, save, copy };
 })();

@@ -108,5 +108,19 @@ const flight = (() => {
     return parts;
   }
 
-  return { first, aimed, start, later, fly };
+  const bounces = (parts) => parts.filter(({ kind }) => kind === "bounce");
+
+  // The least velocity forwards of the ball after any bounce, whatever its contacts are: each may reverse
+  // the velocity of its contact point fully, in part or not at all. It is linear in each of these shares,
+  // so that it is least where each is none or all.
+  function slowest(given) {
+    const choices = Array.from({ length: 2 ** BOUNCES }, (_, choice) => {
+      let count = 0;
+      const parts = fly(given, (x) => ({ state: { velocity: (choice >> count++) % 2 ? -x : x } }));
+      return bounces(parts).map(({ after }) => after.along);
+    });
+    return Math.min(...choices.flat());
+  }
+
+  return { first, aimed, start, later, fly, bounces, slowest };
 })();

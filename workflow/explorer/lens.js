@@ -15,15 +15,17 @@ const lens = (() => {
   const HATCH = 0.26;
   const UNDERSIDE = 1.7; // radius of the ball in the glass
   const LINE = 17; // px between two lines of words
+  const AT_REST = 0.06; // of the velocity in the deflection
   const SLIDES = 1e-9; // incidence from which on something does
 
   // What the contact does now; `first` is its incidence.
   function words({ sticks, velocity, spring }, springy, first) {
     if (first < SLIDES) return "nothing slides";
     if (!sticks) return "slips: friction at its limit";
-    if (!springy) return "point stopped: nothing throws it back";
+    if (!springy) return "stopped: nothing throws it back";
+    if (Math.abs(velocity) < AT_REST * Math.abs(spring)) return "sticks: point at rest, spring stretched most";
     if (velocity * spring <= 0) return "sticks: spring recoils";
-    return `sticks: spring ${spring > 0 ? "stretches" : "swings on"}`;
+    return `sticks: spring stretches${spring > 0 ? "" : " the other way"}`;
   }
 
   // Markup of the glass: `now` a row of the contact, `sign` the direction in which the contact point

@@ -17,23 +17,28 @@ const page = (() => {
   const SETTLED = 300; // ms without a change, after which the address says the state
   const TOLD = 5000; // ms that a message stays
   const INVITATION = "Press Throw, or drag a ball";
-  const INTENT = 8; // pixels that a finger moves before its direction counts
   // A comma is read as a decimal point, never as a separator of thousands.
   const NUMBER = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i;
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   const root = document.documentElement;
-  // `explorer.html?stage` is the stage alone, for the frames of the lectures. Keys that the stage does
-  // not use turn slides.
-  const embedded = new URLSearchParams(location.search).has("stage");
+  // Its address: of a copy that is shown inside a notebook, what that says of it. `?stage` is the stage
+  // alone, for the frames of the lectures, `&hall` that of slides, `&ask` asks before it shows. Keys that
+  // the stage does not use turn slides.
+  const place = root.dataset.address ? new URL(root.dataset.address, "file:///") : location;
+  const query = new URLSearchParams(place.search);
+  const [embedded, hall] = [query.has("stage"), query.has("hall")];
 
   const state = { ...OPENING };
   let impact; // the first bounce, solved from the state
   let flights; // of both balls
   let chart; // what it shows, and its scale
   let told; // how far the show was when the line below the stage was written
-  let frozen; // the end of the axis of incidence while its chart is dragged
   let playing = false;
   let now = 0; // s of the show
+  let lone = false; // one ball alone, as the reader chose
+  let asked = query.has("ask") || !embedded ? "guess" : undefined; // the step of the question
+  const tells = !place.hash.includes("="); // this page explains what it asked, not the lecture round it
+  let guess; // of the place where the ball will be, in m from the hand
 
   // ---- state --------------------------------------------------------------------------------
 
@@ -124,12 +129,16 @@ const page = (() => {
 
   // The line below the stage: what has happened up to now.
   function show_story() {
-    const { bounces: count, over } = stage.progress(now);
-    if (told === `${count} ${over}`) return;
-    told = `${count} ${over}`;
-    const bounces = (parts) => parts.filter(({ kind }) => kind === "bounce");
-    const both = { upper: bounces(flights.upper), lower: bounces(flights.lower) };
-    const said = words.story(both, count, over, impact.zeta2 > 0);
+    const { bounces: count, over, said: moment } = stage.progress(now);
+    element("time").ariaValueText = moment;
+    if (over && asked === "guess" && guess !== undefined) ask("met");
+    const key = `${count} ${over} ${asked} ${now > 0}`;
+    if (told === key) return;
+    told = key;
+    const [upper, lower] = ["upper", "lower"].map((lane) => flight.bounces(flights[lane]));
+    const given = thrown();
+    const said = asked ? STEPS[asked][0](lower)
+      : words.story({ upper, lower, given }, count, over, impact.zeta2 > 0, lone);
     if (element("sentence").textContent !== said) element("sentence").textContent = said;
   }
 
@@ -162,9 +171,8 @@ const page = (() => {
   }
 
   function show_names() {
-    const with_spring = innerWidth < 600 ? "spring" : "contact with a spring";
-    const without = innerWidth < 600 ? "no spring" : "contact without a spring";
-    const taken = innerWidth < 600 ? "no spring" : "its spring is taken away";
+    const [with_spring, without, taken] = innerWidth < 600 ? ["spring", "no spring", "no spring"]
+      : ["contact with a spring", "contact without a spring", "its spring is taken away"];
     stage.part("upper-name").textContent = `\u25CF ${without}:`;
     stage.part("lower-name").textContent = `\u25CF ${impact.zeta2 ? with_spring : taken}:`;
   }
@@ -179,11 +187,12 @@ const page = (() => {
     const svg = element("incidence");
     const wide = (Math.max(svg.clientWidth, 160) * 16) / parseFloat(getComputedStyle(root).fontSize);
     impact = solved(throw_);
-    stage.prepare(throw_, flights);
+    stage.prepare(throw_, flights, { hall, lone: lone || bare(), bare: bare() });
+    stage.put_guess(bare() ? guess : undefined);
     told = undefined;
     now = Math.min(now, stage.duration());
-    if (!embedded) {
-      chart = charts.incidence(svg, wide, impact, state.view, frozen ?? charts.widest(impact));
+    if (!embedded && element("rebound").open) {
+      chart = charts.incidence(svg, wide, impact, state.view);
     }
     show_controls();
     show_names();
@@ -204,22 +213,26 @@ const page = (() => {
     clearTimeout(waiting);
     waiting = setTimeout(() => {
       if (pressed) remember();
-      else if (location.hash !== `#${address()}`) {
+      else if (place === location && location.hash !== `#${address()}`) {
         const how = embedded ? "replaceState" : "pushState";
         history[how](null, "", `#${address()}`);
       }
     }, SETTLED);
   }
 
-  let due = false; // a change that the next frame draws: not more than one in a frame
-  function changed() {
-    remember();
+  let due = false; // what the next frame draws: not more than once in a frame
+  function redraw() {
     if (due) return;
     due = true;
     requestAnimationFrame(() => {
       due = false;
       refresh();
     });
+  }
+
+  function changed() {
+    remember();
+    redraw();
   }
 
   function take(values) {
@@ -271,6 +284,7 @@ const page = (() => {
   element("preset").addEventListener("change", (event) => {
     if (event.target.value) go(event.target.value);
   });
+  element("rebound").addEventListener("toggle", redraw);
   for (const button of document.querySelectorAll(".body")) {
     button.addEventListener("click", () => take({ mass_ratio: Number(button.dataset.mass_ratio) }));
   }
@@ -288,9 +302,10 @@ const page = (() => {
     else requestAnimationFrame(frame);
   }
 
-  // Throws the ball, or goes on. Who wants no motion sees where it went.
+  // Throws the ball, or goes on. Who wants no motion sees one moment after the other.
   function play(on) {
-    if (on && still.matches) return go_to(stage.duration());
+    if (on && element("play").disabled) return;
+    if (on && still.matches) return next_moment();
     if (on && now >= stage.duration() - 1e-3) now = 0;
     playing = on;
     last = undefined;
@@ -305,6 +320,12 @@ const page = (() => {
     play(true);
   }
 
+  // The next moment at which something begins; a question without a magnifying glass has but the end.
+  function next_moment() {
+    const all = bare() ? [stage.duration()] : stage.moments();
+    go_to(all.find((one) => one > now + 1e-6) ?? all[0]);
+  }
+
   function go_to(time) {
     now = Math.min(Math.max(time, 0), stage.duration());
     play(false);
@@ -313,12 +334,17 @@ const page = (() => {
 
   element("play").addEventListener("click", () => play(!playing));
   element("do-start").addEventListener("click", () => go_to(0));
+  element("do-moment").addEventListener("click", next_moment);
+  element("do-lone").addEventListener("click", () => {
+    lone = !lone;
+    element("do-lone").ariaPressed = lone;
+    refresh();
+  });
   element("time").addEventListener("input", (event) => go_to(Number(event.target.value)));
   document.addEventListener("keydown", (event) => {
-    if (embedded && !event.target.matches("input, select, .grasp")) {
-      parent.postMessage({ key: event.key }, "*");
-    }
-    const own = "a, button, select, summary, [role=button], input:not([type=range])";
+    const own = "a, button, select, summary, [role], input:not([type=range])";
+    const used = "input, select, [role]" + (event.key === " " ? `, ${own}` : "");
+    if (embedded && !event.target.matches(used)) parent.postMessage({ key: event.key }, "*");
     if (event.key !== " " || event.target.matches(own)) return;
     event.preventDefault();
     play(!playing);
@@ -330,7 +356,7 @@ const page = (() => {
     // A touch here throws, it does not scroll; browsers ignore touch-action inside SVG.
     handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
     handle.addEventListener("pointerdown", (event) => {
-      if (!event.isPrimary || event.button !== 0) return;
+      if (!event.isPrimary || event.button !== 0 || asked) return;
       go_to(0);
       stage.hold(true);
       handle.setPointerCapture(event.pointerId);
@@ -365,84 +391,78 @@ const page = (() => {
       ArrowRight: turn("angle", 1), ArrowLeft: turn("angle", -1), ArrowUp: turn("speed", 0.2),
       ArrowDown: turn("speed", -0.2), PageUp: turn("spin", 20), PageDown: turn("spin", -20),
     }[event.key];
-    if (change) take(change);
+    if (change && !asked) take(change);
     else if (event.key === "Enter") throw_ball();
     else if (event.key === " ") play(!playing);
     else return;
     event.preventDefault();
   });
 
-  // Pressing or dragging in the chart asks for the incidence there. A mouse acts at once. A finger acts
-  // by a tap, or once it has moved more along the chart than across it: to scroll the page, starting on
-  // the chart, changes nothing.
-  const curves = element("incidence");
-  let start = null; // where it was pressed
-  let dragging = false;
-  function drag(event) {
-    if (!dragging) {
-      dragging = true;
-      curves.setPointerCapture(event.pointerId);
-      frozen = charts.widest(impact);
-    }
-    // The chart says the incidence of the contact point, to which spin adds.
-    const wanted = Math.tan((chart.angle(event) * Math.PI) / 180);
-    const spins = (impact.before.spin * state.radius) / 1000 / -impact.before.up;
-    take({ angle: (Math.atan(wanted + spins) * 180) / Math.PI });
+  // ---- the question ---------------------------------------------------------------------------
+
+  // Who comes without a throw is asked before he sees: where one ball will be; then, with its twin whose
+  // contact has no spring, why. Each step has its sentence, what its button says, and what comes next.
+  const COUNT = ["", "only", "second", "third", "fourth", "fifth"];
+  const STEPS = {
+    guess: [(bounces) => now > 0 ? "Your guess stands." : guess === undefined
+      ? `Where will the ball be, on its way up after its ${COUNT[bounces.length]} bounce? Click on that place.`
+      : "Your guess stands. Now press Throw.", "Skip the question"],
+    met: [() => {
+      const off = stage.last_place() - guess;
+      return Math.abs(off) < 0.1 ? "Well guessed: there it is." :
+        `It is ${Math.abs(off).toFixed(1)} m ${off < 0 ? "left" : "right"} of your guess.`;
+    }, "Compare it with a twin", "twin"],
+    twin: [() => "Two balls, thrown alike. One thing in their contacts differs: see the magnifying glasses. Why do the " +
+      `balls part? ${tells ? "Say it in your words, then press Explain." : "Keep your answer: the lecture comes back to it."}`,
+    "Explain"],
+  };
+
+  // One ball is seen, and no magnifying glass.
+  const bare = () => asked === "guess" || asked === "met";
+
+  function ask(step) {
+    asked = step;
+    if (step) root.dataset.asks = step;
+    else delete root.dataset.asks;
+    element("do-ask").textContent = step && (step !== "twin" || tells) ? STEPS[step][1] : "";
+    invite(step === "guess" ? "" : INVITATION);
+    element("play").disabled = step === "guess" && guess === undefined;
+    refresh();
   }
-  function finish() {
-    if (dragging) {
-      frozen = undefined;
-      changed();
-    }
-    start = null;
-    dragging = false;
+
+  function put_guess(there) {
+    guess = Math.min(Math.max(there, -9), 9);
+    element("play").disabled = false;
+    const handle = stage.part("guess");
+    handle.setAttribute("aria-valuenow", guess.toFixed(2));
+    handle.setAttribute("aria-valuetext", `${guess.toFixed(2)} m from the hand`);
+    told = undefined;
+    stage.put_guess(guess);
+    show_story();
   }
-  curves.addEventListener("pointerdown", (event) => {
-    if (!event.isPrimary || event.button !== 0) return;
-    start = { x: event.clientX, y: event.clientY };
-    if (event.pointerType !== "touch") drag(event);
+
+  element("do-ask").addEventListener("click", () => {
+    const next = STEPS[asked][2];
+    ask(next);
+    if (next) throw_ball();
   });
-  curves.addEventListener("pointermove", (event) => {
-    if (!start || !event.isPrimary) return;
-    const [along, across] = [event.clientX - start.x, event.clientY - start.y].map(Math.abs);
-    if (dragging || (along > INTENT && along > across)) drag(event);
-    else if (across > INTENT) finish();
+  const guesses = () => asked === "guess" && !playing && now === 0;
+  element("stage-svg").addEventListener("click", (event) => {
+    if (guesses() && !event.target.closest("#stage-hand")) put_guess(stage.place_at(event));
   });
-  curves.addEventListener("pointerup", (event) => {
-    if (start && !dragging) drag(event);
-    finish();
+  stage.part("guess").addEventListener("keydown", (event) => {
+    const by = { ArrowLeft: -0.1, ArrowRight: 0.1, ArrowDown: -0.1, ArrowUp: 0.1 }[event.key];
+    if (!by || !guesses()) return;
+    event.preventDefault();
+    put_guess((guess ?? 0) + by);
   });
-  curves.addEventListener("pointercancel", finish);
 
   // ---- how it looks, and what a reader takes along --------------------------------------------
 
-  // Some browsers keep nothing for a page that is a file.
-  function stored(name) {
-    try {
-      return localStorage.getItem(name);
-    } catch {
-      return null;
-    }
-  }
-
-  function store(name, value) {
-    try {
-      localStorage.setItem(name, value);
-    } catch {
-      // It is forgotten with the page.
-    }
-  }
-
-  const is_dark = () =>
-    root.dataset.theme
-      ? root.dataset.theme === "dark"
-      : matchMedia("(prefers-color-scheme: dark)").matches;
-
-  function look(theme) {
-    if (theme) root.dataset.theme = theme;
-    if (embedded) root.dataset.mode = "stage";
-    element("do-dark").ariaPressed = is_dark();
-  }
+  // The page round a stage says when it becomes dark or light.
+  addEventListener("message", ({ data }) => {
+    if (embedded && ["dark", "light"].includes(data?.theme)) root.dataset.theme = data.theme;
+  });
 
   let telling;
   function tell(text) {
@@ -459,11 +479,6 @@ const page = (() => {
     (state.table ? `, table at ${charts.number(state.table)} m` : "");
 
   const ACTIONS = {
-    dark() {
-      const theme = is_dark() ? "light" : "dark";
-      store("explorer-theme", theme);
-      look(theme);
-    },
     async copy() {
       const link = `${location.href.split("#")[0]}#${address()}`;
       const copied = await files.copy(link);
@@ -483,13 +498,13 @@ const page = (() => {
     },
     async curve() {
       const legend = chart.curves.map(({ style }) =>
-        [curves.querySelector(`polyline.${style}`), models.NAMES[style]]);
+        [element("incidence").querySelector(`polyline.${style}`), models.NAMES[style]]);
       const shown = element("view").selectedOptions[0].textContent;
       const of = (place) => files.plain(document.querySelector(`${place} [data-view]:not([hidden])`));
       const [unit, along] = [of(".above"), of(".under")];
       const above = [`${shown}: ${unit}`];
       const below = [`against ${along}`, ...legend, about_impact()];
-      files.save("curve.png", await files.picture(curves, above, below));
+      files.save("curve.png", await files.picture(element("incidence"), above, below));
       tell("curve.png has the curve.");
     },
   };
@@ -504,36 +519,32 @@ const page = (() => {
   // The state of the page's address; without one, that of the first ball.
   function restore() {
     clearTimeout(waiting);
-    const place = location.hash.slice(1);
+    const said = place.hash.slice(1);
     element("refused").textContent = "";
-    Object.assign(state, read(place.includes("=") ? place : presets[0][1].value));
+    Object.assign(state, read(said.includes("=") ? said : presets[0][1].value));
+    if (/\bview=/.test(said)) element("rebound").open = true;
     now = 0;
     playing = false;
-    refresh();
+    // Who has a throw is not asked. Back asks nobody again.
+    ask(said.includes("=") && !query.has("ask") ? undefined : asked);
     play(false);
-    show_time();
   }
 
-  // The page round a stage says when it becomes dark or light.
-  addEventListener("message", ({ data }) => {
-    if (embedded && ["dark", "light"].includes(data?.theme)) look(data.theme);
-  });
-
-  look(stored("explorer-theme"));
+  if (embedded) root.dataset.mode = hall ? "stage hall" : "stage";
   restore();
   addEventListener("popstate", () => {
-    const place = location.hash.slice(1);
     // A place on the page, as #main, says no state.
-    if (place === "" || place.includes("=")) restore();
+    if (location.hash === "" || location.hash.includes("=")) restore();
   });
   // Also when the words below it take more lines.
-  new ResizeObserver(changed).observe(element("stage-svg"));
-  addEventListener("resize", changed);
+  new ResizeObserver(redraw).observe(element("stage-svg"));
+  addEventListener("resize", redraw);
 
   // Goes to the state that an address says, as a preset does.
   function go(to) {
     element("refused").textContent = "";
     Object.assign(state, read(to));
+    if (/\bview=/.test(to)) element("rebound").open = true;
     go_to(0);
     changed();
   }

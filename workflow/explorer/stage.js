@@ -1,13 +1,14 @@
 "use strict";
 
 // The stage: two balls thrown alike, the upper one with a rigid contact and the lower one with a spring
-// along the surface, each above its own floor and below the name of its contact. The time of the show,
-// in seconds, stretches each contact.
+// along the surface, each above its own floor and below the name of its contact; or the lower one
+// alone. The time of the show, in seconds, stretches each contact.
 const stage = (() => {
   const SLOW_FLIGHT = 3; // times slower than in nature, and under a table, where flights are short
   const SLOW_BELOW = 10;
   const FIRST_CONTACT = 1.5; // s that one t_c takes in the first bounce, and in the others
   const LATER_CONTACT = 1;
+  const UNSEEN_CONTACT = 0.1; // where no magnifying glass shows it
   const SHOWN = 3; // flights that the frame shows; later ones may leave it
   const STEP = 0.012; // s between two corners of a path
   const RADIANS_A_SECOND = 80; // of spin that turns the knob by one radian
@@ -17,12 +18,13 @@ const stage = (() => {
   const RULERS = [5, 1, 0.5, 0.1]; // m; the first that takes at most a sixth of the width
   const slower = () => (shown.given.table ? SLOW_BELOW : SLOW_FLIGHT);
   const LANES = ["upper", "lower"];
-  const LENS = 64; // px, radius of the magnifying glass at most
+  const [LENS, HALL_LENS] = [64, 125]; // px, radius of the magnifying glass at most; in a hall
   const element = (id) => document.getElementById(id);
   const svg = element("stage-svg");
   const part = (name) => element(`stage-${name}`);
 
   let shown; // what `prepare` was given, and what follows from it
+  let mode = {}; // `lone`: the lower ball alone; `bare`: no magnifying glass; `hall`: a large one
   let frame; // of the picture: see `framed`
   let held; // the frame while the ball is aimed
 
@@ -33,7 +35,8 @@ const stage = (() => {
     const list = [];
     let start = 0;
     parts.forEach((one, index) => {
-      const pace = list.some(({ kind }) => kind === "bounce") ? LATER_CONTACT : FIRST_CONTACT;
+      const pace = mode.bare ? UNSEEN_CONTACT
+        : list.some(({ kind }) => kind === "bounce") ? LATER_CONTACT : FIRST_CONTACT;
       const length = one.kind === "flight" ? slower() * one.time : pace * one.contact.end;
       list.push({ kind: one.kind, index, start, length });
       start += length;
@@ -44,8 +47,8 @@ const stage = (() => {
   // The show ends with the last flight, or when a ball reaches the edge of the frame.
   function ended() {
     const last = shown.segments.at(-1);
-    const leaving = Object.entries(shown.traces).map(([lane, corners]) =>
-      corners.find((corner) => {
+    const leaving = lanes().map((lane) =>
+      shown.traces[lane].find((corner) => {
         const [x] = place_of(corner, lane);
         return x < frame.radius || x > frame.width - frame.radius;
       })?.now ?? Infinity);
@@ -53,6 +56,20 @@ const stage = (() => {
   }
 
   const duration = () => shown.end;
+
+  // Times of the show at which something begins: each contact, flight, stick, slip, way back, push of
+  // friction the other way; and its end.
+  function moments() {
+    const list = shown.segments.flatMap(({ kind, index, start, length }) => {
+      if (kind === "flight") return [start];
+      const { rows, end } = shown.flights.lower[index].contact;
+      const differs = (i, name) => Math.sign(rows[i][name]) !== Math.sign(rows[i - 1][name]);
+      const changes = rows.filter(({ sticks }, i) => i > 1 && (sticks !== rows[i - 1].sticks ||
+        differs(i, "velocity") || differs(i, "friction")));
+      return [{ time: 0.02 }, ...changes].map(({ time }) => start + (length * (time + 1e-6)) / end);
+    });
+    return [...list.filter((one) => one > 0 && one < shown.end), shown.end];
+  }
 
   // The segment at a time of the show, and how far it has gone, from 0 to 1.
   function moment(now) {
@@ -82,7 +99,7 @@ const stage = (() => {
     const width = Math.max(svg.clientWidth, 200);
     const height = Math.max(svg.clientHeight, 120);
     const floor = height - BASE; // of the lower lane
-    const sky = (floor - 2 * NAME - FLOOR) / 2; // of each lane
+    const sky = mode.lone ? floor - NAME : (floor - 2 * NAME - FLOOR) / 2; // of each lane
     const radius = Math.min(24, sky / 6) * (gap ? 0.8 : 1);
     const places = [0];
     const heights = [gap || 0.3];
@@ -106,8 +123,10 @@ const stage = (() => {
     const [{ ball }] = flights.upper;
     const free = scale * ball.height + radius;
     const aim = Math.min(18, width / 36, free / Math.max(-ball.up, 0.1));
-    return { width, height, radius, floor, upper: NAME + sky, scale, origin, gap, aim };
+    return { width, height, radius, floor, upper: NAME + sky, sky, scale, origin, gap, aim };
   }
+
+  const lanes = () => (mode.lone ? ["lower"] : LANES);
 
   const floor_of = (lane) => (lane === "upper" ? frame.upper : frame.floor);
 
@@ -129,8 +148,9 @@ const stage = (() => {
     });
   }
 
-  function prepare(given, flights) {
+  function prepare(given, flights, how = {}) {
     const gap = given.table ? given.table - 2 * given.radius : 0;
+    mode = how;
     shown = { given, flights };
     const list = (shown.segments = segments(flights.upper));
     const speeds = Object.values(flights).flat().map(({ x, unit }) => (x ?? 0) * unit || 0);
@@ -147,15 +167,18 @@ const stage = (() => {
     const { width, height, radius, floor, upper, scale, gap } = frame;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const board = (top, low) => `M0,${top}H${width}V${low}H0Z`;
-    part("floor").setAttribute("d", board(upper, upper + FLOOR) + board(floor, height));
-    part("edge").setAttribute("d", `M0,${upper}H${width}M0,${floor}H${width}`);
+    const floors = lanes().map(floor_of);
+    svg.classList.toggle("lone", !!mode.lone);
+    part("floor").setAttribute("d",
+      floors.map((low) => board(low, low === floor ? height : low + FLOOR)).join(""));
+    part("edge").setAttribute("d", floors.map((low) => `M0,${low}H${width}`).join(""));
     const under = scale * gap + 2 * radius; // the table of a lane, above its floor
     part("table").setAttribute("d", !gap ? "" :
-      [upper, floor].map((low) => board(low - under - 5, low - under)).join(""));
+      floors.map((low) => board(low - under - 5, low - under)).join(""));
     part("table-word").textContent = gap ? "table" : "";
     part("table-word").setAttribute("x", width - 12);
-    part("table-word").setAttribute("y", upper - under - 9);
-    part("lower-words").setAttribute("y", upper + FLOOR + NAME - 6);
+    part("table-word").setAttribute("y", floors[0] - under - 9);
+    part("lower-words").setAttribute("y", floor - frame.sky - 6);
     const [end, line] = [width - 12, floor + BASE / 2];
     const metres = RULERS.find((one) => scale * one < width / 6) ?? RULERS.at(-1);
     part("ruler").setAttribute("d", `M${end},${line - 4}v8m0,-4h${-scale * metres}m0,-4v8`);
@@ -191,36 +214,44 @@ const stage = (() => {
     part(`${lane}-path`).setAttribute("d",
       `M${behind.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join("L")}`);
     const foot = bounce?.wall === "table" ? y - radius : y + radius;
-    part(`${lane}-numbers`).textContent = row && narrow()
-      ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
-    part(`${lane}-lens`).innerHTML = row ? lens_of(lane, bounce, row, [x, foot]) : "";
+    const seen = row && !mode.bare;
+    part(`${lane}-numbers`).textContent =
+      seen && above() ? lens.words(row, springy(lane), bounce.x) : speed_words(ball);
+    part(`${lane}-lens`).innerHTML = seen ? lens_of(lane, bounce, row, [x, foot]) : "";
   }
 
   const springy = (lane) => lane === "lower" && shown.given.groups.zeta2 > 0;
-  const narrow = () => frame.width < 480; // then words stand above the ball
+  const above = () => mode.hall || frame.width < 480; // then words stand above the ball
 
-  // The magnifying glass beside the ball, where there is more room.
+  // The magnifying glass beside the ball, where there is more room. In a hall it is as high as the
+  // picture lets it be, and that of the upper ball stands beyond the other.
   function lens_of(lane, bounce, now, tip) {
-    const size = Math.min(LENS, (frame.upper - NAME) / 2 - 3);
     const side = tip[0] < frame.width / 2 ? 1 : -1;
-    const x = tip[0] + side * (frame.radius + 14 + size);
-    const y = floor_of(lane) - (frame.upper - NAME) / 2 + 2;
+    const room = (side > 0 ? frame.width - tip[0] : tip[0]) - frame.radius - 30;
+    const size = mode.hall ? Math.min(HALL_LENS * (mode.lone ? 1.5 : 1), (frame.floor - NAME) / 2 - 3, room / (2 * lanes().length) - 4)
+      : Math.min(LENS, frame.sky / 2 - 3);
+    const beyond = mode.hall && lane === "upper" ? 2 * size + 8 : 0;
+    const x = tip[0] + side * (frame.radius + 14 + size + beyond);
+    const middle = floor_of(lane) - frame.sky / 2 + 2;
+    const y = Math.min(Math.max(middle, NAME + size + 3), frame.floor - size + 2);
     const up = bounce.wall === "table" ? -1 : 1;
     return lens.show({ lane, now, first: bounce.x, speed: bounce.unit / shown.fastest, sign: bounce.sign,
-      up, springy: springy(lane), x, y, size, tip, side, worded: !narrow() });
+      up, springy: springy(lane), x, y, size, tip, side, worded: !above() });
   }
 
   function show(now) {
     const at_moment = moment(now);
-    for (const lane of LANES) show_lane(lane, now, at_moment);
-    const { segment } = at_moment;
+    for (const lane of lanes()) show_lane(lane, now, at_moment);
+    const { segment, share } = at_moment;
     const bounces = shown.segments.slice(0, segment.index + 1)
       .filter(({ kind }) => kind === "bounce").length;
     shown.bounces = bounces - (segment.kind === "bounce");
     part("moment").textContent = segment.kind === "bounce"
-      ? `bounce ${bounces}, in slow motion`
+      ? mode.bare ? "" : `bounce ${bounces}, in slow motion`
       : now === 0 ? "" : now >= shown.end - 1e-3 ? "the end" : `in flight, ${slower()} times slower`;
     svg.classList.toggle("waiting", now === 0);
+    shown.said = now === 0 ? "in the hand" : segment.kind === "flight" ? part("moment").textContent
+      : `bounce ${bounces}, ${(100 * share).toFixed(0)} % of the contact is over`;
   }
 
   // ---- the hand -----------------------------------------------------------------------------
@@ -288,8 +319,19 @@ const stage = (() => {
     if (!on) part("band").setAttribute("d", "");
   }
 
-  // Bounces that are over, and whether the show is.
-  const progress = (now) => ({ bounces: shown.bounces, over: now >= shown.end - 1e-3 });
+  // A guess of the place where the ball will be, in m from the hand; without one the mark goes.
+  function put_guess(place) {
+    const x = (frame.origin + frame.scale * (place ?? 0)).toFixed(1);
+    part("guess-line").setAttribute("d", place === undefined ? "" : `M${x},${NAME}V${frame.floor}`);
+    part("guess-word").setAttribute("x", Math.min(Math.max(x, 46), frame.width - 46));
+    part("guess-word").setAttribute("y", frame.floor - 8);
+    part("guess-word").textContent = place === undefined ? "" : "your guess";
+  }
+  const place_at = (event) => (point_of(event).x - frame.origin) / frame.scale;
+  const last_place = () => lane_at(shown.flights.lower, moment(shown.end)).ball.place;
 
-  return { progress, prepare, show, duration, aim_at, spin_at, hold, part };
+  // Bounces that are over, whether the show is, and the moment in words.
+  const progress = (now) => ({ bounces: shown.bounces, over: now >= shown.end - 1e-3, said: shown.said });
+
+  return { progress, prepare, show, duration, moments, aim_at, spin_at, hold, part, put_guess, place_at, last_place };
 })();

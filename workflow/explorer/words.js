@@ -5,6 +5,7 @@ const words = (() => {
   const way = (sign) => (sign > 0 ? "forwards" : "backwards");
 
   const SLOW = 0.05; // m/s: less is 0.0 where one digit is shown
+  const TABLE = 0.7; // m above the floor
   const TINY = 1e-9; // incidence of a contact point that rolls, but for rounding
 
   function percent(share) {
@@ -31,50 +32,70 @@ const words = (() => {
     return rows.some(({ velocity }) => velocity < -models.STOPPED * x) ? "swung" : "let_go";
   }
 
-  // The contact point of one bounce, and what follows for the ball.
-  function bounced(bounce) {
+  // The contact point of one bounce, and what follows for the ball, which was `thrown` forwards or not.
+  function bounced(bounce, thrown) {
     const { x, ball, after, contact: { state } } = bounce;
     const left = `at ${percent(Math.abs(state.velocity) / x)} of the speed it came with`;
     const verb = Math.abs(ball.along) < SLOW ? "sets off" : ball.along * after.along < 0 ? "turns round"
-      : after.along < 0 ? "comes back" : "goes on";
+      : thrown && after.along < 0 ? "comes back" : "goes on";
     const goes = Math.abs(after.along) < SLOW ? "hardly moves along the surface"
       : `${verb}, ${Math.abs(after.along).toFixed(1)} m/s ${way(after.along)}`;
     return `${FATES[fate(bounce)](left)}; the ball ${goes}.`;
   }
 
   // What has happened in this throw up to now, in a line: `upper` and `lower` are the bounces of the
-  // ball on a rigid contact and of that on a spring, of which `count` are over.
-  function story({ upper, lower }, count, over, springy) {
+  // ball on a rigid contact and of that on a spring, of which `count` are over, of the throw `given`. Of a
+  // `lone` ball only the lower one is told.
+  function story({ upper, lower, given }, count, over, springy, lone) {
     if (!count) {
-      return springy ? "The same throw twice. Only the lower ball has a spring along the surface."
+      return lone ? "" : springy ? "The same throw twice. Only the lower ball has a spring along the surface."
         : "The same throw twice. Neither ball has a spring along the surface: both contacts are rigid.";
     }
     const { wall } = lower[count - 1];
-    const rigid = bounced(upper[count - 1]);
-    const last = `After bounce ${count} (${wall}). ` + (springy
-      ? `With the spring: ${bounced(lower[count - 1])} Without: ${rigid}` : `Both: ${rigid}`);
-    return (over && ending(upper, lower, springy)) || last;
+    const thrown = lower[0].ball.along > SLOW;
+    const [own, rigid] = [lower, upper].map((all) => bounced(all[count - 1], thrown));
+    const said = lone ? own[0].toUpperCase() + own.slice(1)
+      : springy ? `With the spring: ${own} Without: ${rigid}` : `Both: ${rigid}`;
+    return (over && !lone && ending(upper, lower, springy, given)) || `After bounce ${count} (${wall}). ${said}`;
   }
 
+  const forwards = ({ after }) => after.along > SLOW;
+
   // What a throw forwards has come to, if the balls tell with spring and without what the spring does.
-  function ending(upper, lower, springy) {
-    const forwards = ({ after }) => after.along > SLOW;
+  function ending(upper, lower, springy, given) {
     const stopped = upper.every(({ contact: { state } }) => state.velocity === 0);
     if (lower[0].ball.along <= SLOW || !upper.every(forwards) || !stopped) return "";
-    const end = "Without a spring the contact point stops, and the ball goes on.";
+    const end = "Without a spring the contact point stopped, and the ball went on.";
     if (!springy) return `Both balls went on. ${end}`;
-    if (lower.every(forwards)) {
-      return "The ball with the spring went on, too. Timing decides: the spring turns the ball round only if " +
-        "the contact ends while the spring throws the contact point back hard enough.";
-    }
+    if (lower.every(forwards)) return missed(given);
     // The spin of an earlier bounce turns it, once.
     const turned = lower.findIndex((one) => !forwards(one));
-    const thrown = lower.every((one) => fate(one) === "thrown_back");
+    const thrown = lower[0].sign > 0 && lower.every((one) => fate(one) === "thrown_back");
     const back = lower.slice(turned).every(({ after }) => after.along < -SLOW);
     if (turned === 0 || !thrown || !back) return "";
     return "The ball with the spring came back. At each bounce the spring recoiled and threw the contact point " +
-      `back. So the ball spun fast, its ${lower[turned].wall === "table" ? "highest" : "lowest"} point ran forwards ` +
+      `back. The ball spun fast, its ${lower[turned].wall === "table" ? "highest" : "lowest"} point ran forwards ` +
       `into the ${lower[turned].wall}, and friction there turned it round. ${end}`;
+  }
+
+  // Whether a spring could have turned a ball that went on: then the timing of its own is to blame.
+  function missed(given) {
+    const went = "The ball with the spring went on, too.";
+    const { groups, compliance } = given;
+    const turns = (share, table = given.table) => flight.bounces(flight.fly({ ...given, table }, (x) =>
+      models.contact("lumped", { ...groups, x, zeta2: (share / compliance) * groups.zeta2 })))
+      .at(-1).after.along < -SLOW;
+    const other = Array.from({ length: 100 }, (_, i) => (i + 1) / 100)
+      .sort((a, b) => Math.abs(a - compliance) - Math.abs(b - compliance)).find((share) => turns(share));
+    if (other) {
+      return `${went} Timing decides: with the tangential compliance ${other} the spring swings at another pace, ` +
+        "and the ball comes back.";
+    }
+    const kept = flight.slowest(given);
+    const under = !given.table && given.radius < TABLE / 4 && turns(compliance, TABLE) ?
+      ` Under a table at ${TABLE} m it comes back.` : "";
+    return kept <= SLOW ? "" : `${went} No spring can turn this throw round: however far its bounces throw the ` +
+      `contact point back, at least ${kept.toFixed(1)} m/s forwards are left.${under}`;
   }
 
   return { story };

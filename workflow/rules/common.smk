@@ -27,6 +27,7 @@ from stronge1994 import ledger_table, reference_data, settings
 from stronge1994.names import is_of_paper
 from stronge1994.settings import config as configuration
 from stronge1994.settings import figures
+from stronge1994.versions import WHEEL
 
 ACCEPTED = "data/accepted/verdicts.csv"
 try:
@@ -75,7 +76,8 @@ COMMON = files("src/planarimpact/*.py", "src/planarimpact/common/*", "src/strong
 COMMON += files(
     "src/stronge1994/figures/*.py", "src/stronge1994/studies/*.py", "src/stronge1994/reference_data/*"
 )
-SOLVER = [*files("src/planarimpact/**/*"), "environment.txt"]  # another version of a package solves again
+PACKAGE = files("src/planarimpact/**/*")
+SOLVER = [*PACKAGE, "environment.txt"]  # another version of a package solves again
 SOLVING = [*SOLVER, *COMMON, *files("src/stronge1994/printed/*", "src/stronge1994/figures/shared/curves/*")]
 DRAWING = [*COMMON, *files("src/stronge1994/figures/shared/drawing/*")]
 JUDGING = [

@@ -48,12 +48,19 @@ rule report:
         "../scripts/write_report.py"
 
 
+# What a lecture, or a check of its texts, reads.
+READ_BY = {
+    "choosing_a_model": "results/curves/trade.csv",
+    "why_a_superball_comes_back": "data/cross2014/impacts.csv",
+}
+
+
 rule lecture:
     """Run one lecture, with the checks of what its texts state, and write its pages."""
     input:
         code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
-        tables=branch(lambda wildcards: wildcards.notebook == "choosing_a_model", "results/curves/trade.csv"),
+        tables=lambda wildcards: READ_BY.get(wildcards.notebook, []),
         style="workflow/notebooks/lecture.mplstyle",
         page="workflow/report/notebook.html",
         slides="workflow/report/slides.html",
@@ -62,6 +69,7 @@ rule lecture:
         page="figures/{notebook}.html",
         slides="figures/slides_{notebook}.html",
         student="figures/student_{notebook}.ipynb",
+        after="figures/after_{notebook}.ipynb",
         answers="figures/answers_{notebook}.html",
     log:
         "results/logs/lecture_{notebook}.log",
@@ -118,10 +126,56 @@ rule your_copy:
         "../scripts/write_your_copy.py"
 
 
+rule wheel:
+    """The solver as one file, which lies beside the notebooks of students, who install it."""
+    input:
+        code=[
+            "workflow/scripts/build_wheel.py",
+            *files("src/stronge1994/__init__.py", "src/stronge1994/logs.py"),
+        ],
+        packages="environment.txt",
+        source=[*PACKAGE, "src/planarimpact/README.md", "pyproject.toml", "LICENSE"],
+    output:
+        f"figures/{WHEEL}",
+    log:
+        "results/logs/wheel.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/build_wheel.py"
+
+
+rule lite:
+    """A web site on which the notebooks of students run in the browser. No part of `all`: it needs JupyterLite."""
+    input:
+        code=[
+            "workflow/scripts/build_lite.py",
+            *files("src/stronge1994/__init__.py", "src/stronge1994/logs.py"),
+        ],
+        packages="workflow/envs/lite.txt",
+        files=[
+            *rules.wheel.output,
+            rules.explorer.output.page,  # which a cell shows
+            *expand(rules.lecture.output.student, notebook=NOTEBOOKS),
+            *expand(rules.lecture.output.after, notebook=NOTEBOOKS),
+        ],
+    output:
+        directory("results/lite"),
+    log:
+        "results/logs/lite.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    params:
+        pyodide_url=config["lite"]["pyodide_url"],
+    script:
+        "../scripts/build_lite.py"
+
+
 PAGES = [
     *rules.report.output,
     *rules.explorer.output,
     *rules.your_copy.output,
+    *rules.wheel.output,
     *expand(rules.lecture.output, notebook=NOTEBOOKS),
 ]
 

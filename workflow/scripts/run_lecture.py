@@ -1,4 +1,4 @@
-"""Run one lecture; write its page, slides, sheet of answers and notebook for students."""
+"""Run one lecture; write its page, slides, sheet of answers and notebooks for students."""
 
 from stronge1994 import logs
 

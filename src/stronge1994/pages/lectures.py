@@ -1,4 +1,4 @@
-"""Run a lecture, and write it as a page, slides, a sheet of answers and a notebook for students.
+"""Run a lecture, and write it as a page, slides, a sheet of answers and notebooks for students.
 
 nbconvert makes the pages. Cells that have the tag `answer` stand on the sheet alone, for the
 teacher, and those with `student` in the notebook alone. What stands on a slide is what JupyterLab
@@ -24,7 +24,8 @@ from nbconvert import HTMLExporter, SlidesExporter
 from nbconvert.filters import strip_ansi
 from traitlets.config import Config
 
-from stronge1994.pages import stated_numbers, student
+from stronge1994 import versions
+from stronge1994.pages import stated_numbers, structure, student
 
 # How pictures are written: without a date, and as wide as they are drawn.
 PICTURE = {"metadata": {"Date": None}, "bbox_inches": None}
@@ -32,16 +33,15 @@ PICTURE = {"metadata": {"Date": None}, "bbox_inches": None}
 CELL_TIMEOUT = 120
 SRC = Path(__file__).parents[2]
 EXPORTERS = {"page": HTMLExporter, "answers": HTMLExporter, "slides": SlidesExporter}
-# A paragraph that is only a link to the stage of the explorer, or only a picture that is a file.
-STAGE = re.compile(r"^\[(?P<words>[^]]+)\]\(explorer\.html\?stage(?P<state>#\S+)\)$", re.M)
 FRAME = """<figure class="play">
-<iframe src="explorer.html?stage{state}" title="{title}" loading="lazy"></iframe>
+<iframe src="explorer.html?stage{ask}{state}" title="{title}" loading="lazy"></iframe>
 <figcaption>
 
-{words}. [Open in the explorer](explorer.html{state})
+{words}{stop} [Open in the explorer](explorer.html{alone}{state})
 
 </figcaption>
 </figure>"""
+# A paragraph that is only a picture that is a file.
 DRAWING = re.compile(r"^!\[[^]]*\]\(\.\./report/([a-z_]+\.svg)\)$", re.M)
 # Symbols have the colours that they have in the drawing of the model.
 SYMBOLS = {"velocity": r"\*[vw]\*[₁₂]?", "friction": r"\*F\*₁"}
@@ -70,25 +70,32 @@ def run(notebook: str, templates: Mapping[str, str], made: Mapping[str, str]) ->
     """Run `notebook` from its first cell to its last, its checks among them, and write all.
 
     `made["page"]` and `made["answers"]` become pages, made with the Jinja template
-    `templates["page"]`, `made["slides"]` one with `templates["slides"]`, and `made["student"]` the
-    notebook for students. A `NotebookError` says in one line which cell failed, in which line and
-    why; or which text states what its cells do not give, or is not as its check quotes it; or that
-    a cell took too long, or ended the kernel.
+    `templates["page"]`, and `made["slides"]` one with `templates["slides"]`. `made["student"]`
+    becomes the notebook for students, and `made["after"]` what they read after they have predicted.
+    A `NotebookError` says in one line which cell failed, in which line and why; or which text
+    states what its cells do not give, or is not as its check quotes it; or that a cell took too
+    long, or ended the kernel.
     """
     book, folder = nbformat.read(notebook, as_version=4), Path(notebook).parent
     if fault := stated_numbers.fault(book.cells):
         raise NotebookError(f"{Path(notebook).name}, {fault}")
-    texts = {made["student"]: nbformat.writes(student.notebook(book, folder)) + "\n"}
+    name, notebooks = Path(notebook).stem, {"student": student.notebook, "after": student.after}
+    texts = {
+        made[kind]: nbformat.writes(write(book, folder, name)) + "\n"
+        for kind, write in notebooks.items()
+    }
     _execute(book, notebook)
-    for cell in book.cells:
+    for cell, fold in zip(book.cells, structure.folds(book.cells), strict=True):
+        cell.metadata["fold"] = fold
         if cell.cell_type == "markdown":
-            cell.source = on_a_page(cell.source, Path(templates["page"]).parent)
+            source = structure.raised(cell.source) if fold else cell.source
+            cell.source = on_a_page(source, Path(templates["page"]).parent)
     for kind, exporter in EXPORTERS.items():
         others = {"student", "check"} | ({"answer"} if kind != "answers" else set())
         rest = Config({"TagRemovePreprocessor": {"enabled": True, "remove_cell_tags": others}})
         one = exporter(template_file=str(templates.get(kind, templates["page"])), config=rest)
         one.exclude_anchor_links = one.exclude_output_prompt = True
-        resources = {"metadata": {"name": Path(made["page"]).stem}, "kind": kind}
+        resources = {"metadata": {"name": name}, "kind": kind, "wheel": versions.WHEEL}
         texts[made[kind]] = one.from_notebook_node(book, resources)[0]
     for path, text in texts.items():
         Path(path).write_text(text, encoding="utf-8")
@@ -112,14 +119,20 @@ def on_a_page(source: str, folder: Path) -> str:
     'The velocity <span class="velocity">*v*₁</span>\\xa0=\\xa07'
     """
     # A notebook lies two folders below the one that holds those of the pages.
-    source = STAGE.sub(
-        lambda link: FRAME.format(title=link["words"].replace("*", ""), **link.groupdict()),
-        source.replace("../../figures/", ""),
-    )
+    source = structure.STAGE.sub(_frame, source.replace("../../figures/", ""))
     source = DRAWING.sub(lambda found: (folder / found[1]).read_text(encoding="utf-8"), source)
     for name, symbol in SYMBOLS.items():
         source = re.sub(symbol, rf'<span class="{name}">\g<0></span>', source)
     return source.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
+
+
+def _frame(link: re.Match[str]) -> str:
+    """The stage in place of a link to it. One that asks does so in the explorer, too."""
+    words, ask = link["words"], link["ask"] or ""
+    more = {"title": words.replace("*", ""), "stop": "" if words[-1] in ".!?" else "."}
+    return FRAME.format(
+        words=words, ask=ask, state=link["state"], alone=ask and f"?stage{ask}", **more
+    )
 
 
 def _execute(book: Any, notebook: str) -> None:

@@ -1,0 +1,150 @@
+"""What a student writes into the first lecture: all cells use it, or one sentence refuses it."""
+
+import matplotlib
+import matplotlib.pyplot as plt
+import nbformat
+import pytest
+
+from stronge1994.pages import stated_numbers
+from tests.workflow.project import ROOT
+
+FOLDER = ROOT / "workflow/notebooks"
+ROW = "[0, 100, 300, 40]"
+ROWS = f"[{ROW}, [2, 120, 250, 40]]"
+LATER = "[[12, 140, 50, 40], [14, 150, 90, 50]]"
+
+
+def readings(steep, after=LATER, flat=ROWS):
+    """An entry that fills the lists of readings."""
+    halves = [(name, half) for name in ("steep", "flat") for half in ("before", "after")]
+    filled = zip(halves, (steep, after, flat, LATER), strict=True)
+    return "READINGS = {" + ", ".join(f"{half}: {rows}" for half, rows in filled) + "}"
+
+
+@pytest.fixture
+def executed(monkeypatch):
+    """Function: the names after all cells, or some, with `entry` below the cell `place`."""
+    matplotlib.use("Agg")
+    monkeypatch.chdir(FOLDER)
+    book = nbformat.read(FOLDER / "why_a_superball_comes_back.ipynb", as_version=4)
+    cells = [
+        cell
+        for cell in book.cells
+        if cell.cell_type == "code" and not stated_numbers.is_check(cell)
+    ]
+
+    def run(entry, place="numbers", only=()):
+        names = {}
+        with matplotlib.rc_context():
+            for cell in cells:
+                if not only or cell.id in only:
+                    source = f"{cell.source}\n{entry}" if cell.id == place else cell.source
+                    exec(compile(source, cell.id, "exec"), names)
+                plt.close("all")
+        return names
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        ("MU = 0", r"MU = 0: allowed is one number from 0\.02 to 5"),
+        ("MU = 0,5", r"MU = \(0, 5\): allowed .* Write decimals with a point\."),
+        ("MU = '0.5'", "MU = '0.5': allowed"),
+        ("RESTITUTION = 0", r"RESTITUTION = 0: allowed is one number from 0\.1 to 1"),
+        ("RESTITUTION = 1.2", "RESTITUTION = 1.2: allowed"),
+        ("POISSON_RATIO = 0.6", r"POISSON_RATIO = 0\.6: allowed is one number from 0 to 0\.5"),
+        ("ALONG = -5", "ALONG = -5: allowed"),
+        ("ALONG = float('nan')", "ALONG = nan: allowed"),
+        ("DOWN = 0", r"DOWN = 0: allowed is one number from 0\.1 to 50"),
+        ("SPIN = 200", r"ALONG = 5\.0 with SPIN = 200: the lowest point of the ball is at rest"),
+        ("TABLE = 0.05", "TABLE = 0.05: allowed"),
+    ],
+)
+def test_a_number_that_is_not_allowed_is_refused_in_one_sentence(entry, words, executed):
+    with pytest.raises(ValueError, match=rf"^{words}") as refusal:
+        executed(entry, only=("style", "numbers", "bounce"))
+    assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        (readings(f"[{ROW}, [2, 120, 250,5, 40]]"), "READINGS, steep, before, row 2 is 5 numbers"),
+        (readings(ROW), "READINGS, steep, before, row 1 is 0: a row is 4 numbers in brackets"),
+        (readings("[]"), r"READINGS: 1 of 4 lists are empty \(steep, before\)"),
+        (readings("[]", "[]", "[]"), "READINGS: 3 of 4 lists are empty"),
+        (readings(f"[{ROW}]"), "READINGS, steep, before has 1 row: .* needs 2 or more"),
+        (readings(f"[{ROW}, [2, 120, -250, 40]]"), ".*row 2: up = -250 px is below the floor"),
+        (readings(f"[{ROW}, [0, 120, 250, 40]]"), ".*row 2: frame 0 does not come after frame 0"),
+        (readings(f"[{ROW}, [2, 'far', 250, 40]]"), ".*row 2: along = 'far' is not a number"),
+        (readings(ROWS, after=ROWS), "READINGS, steep: the first frame after the bounce, 0, must"),
+        (readings("[[0, 100, 50, 40], [2, 120, 300, 40]]"), "READINGS, steep: by `up` the ball do"),
+        (readings("[[0, 120, 300, 40], [2, 100, 250, 40]]"), "READINGS, steep: .*to the right"),
+        ("READINGS = {}", "READINGS needs four lists"),
+        ("FRAME_RATE = 0", "FRAME_RATE = 0: allowed is one number from 10 to 100000"),
+        ("DIAMETER = 5.0", r"DIAMETER = 5\.0: allowed is one number from 0\.005 to 0\.5"),
+        ("DIAMETER = 4,5", r"DIAMETER = \(4, 5\): allowed"),
+        ("ERRORS['angle'] = -1", "ERRORS, angle = -1: allowed is one number from 0 on"),
+    ],
+)
+def test_a_reading_that_is_not_allowed_is_refused_in_one_sentence(entry, words, executed):
+    only = "style", "numbers", "bounce", "readings", "readings-refused", "example", "analysis"
+    with pytest.raises(ValueError, match=rf"^{words}") as refusal:
+        executed(entry, "readings", only)
+    assert "\n" not in str(refusal.value)
+
+
+def test_readings_take_the_place_of_the_example(executed, capsys):
+    only = "style", "numbers", "bounce", "readings", "readings-refused", "example", "analysis"
+    names = executed(readings(ROWS), "readings", only)
+    assert capsys.readouterr().out.startswith("MEASURED")
+    assert names["readings"] is names["READINGS"]
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [
+        "MU = 0.02",
+        "RESTITUTION = 1",
+        "ALONG, DOWN = 50, 0.1",
+        pytest.param("SPIN = -300", marks=pytest.mark.long),
+        pytest.param("POISSON_RATIO, SPIN = 0, 300", marks=pytest.mark.long),
+        pytest.param("RESTITUTION, TABLE = 0.1, 0.1", marks=pytest.mark.long),
+    ],
+)
+def test_all_cells_use_a_number_that_is_allowed_and_say_so(entry, executed, capsys):
+    names = executed(entry)
+    used = [line for line in capsys.readouterr().out.splitlines() if line.startswith("Used: ")]
+    assert len(used) == 3  # each of the cells to change
+    for line, given in zip(
+        used,
+        [
+            ("ALONG", "DOWN", "SPIN", "MU", "RESTITUTION"),
+            ("RESTITUTION", "POISSON_RATIO"),
+            ("MU", "RESTITUTION", "POISSON_RATIO"),
+        ],
+        strict=True,
+    ):
+        assert all(f" = {names[name]:g}" in line for name in given), line
+
+
+def test_the_spin_that_a_student_writes_is_clockwise(executed):
+    """A ball that spins as it rolls has its lowest point at rest; backspin moves it forward."""
+    names = executed("SPIN = -100", only=("style", "numbers", "bounce"))
+    assert names["contact_point"](names["THROWN"]) == pytest.approx(5 + 0.025 * 100)
+    after = names["throw"]()[1]
+    assert after.spin > names["THROWN"].spin and after.tangential < 5, "friction pushes back"
+
+
+@pytest.mark.parametrize("entry", ["", "ALONG, DOWN = 50, 0.1", "ALONG, SPIN = 15, -300"])
+def test_a_changed_throw_stays_in_its_picture(entry, executed):
+    names = executed(entry, only=("style", "numbers", "bounce", "path-stopped"))
+    names["draw_throw"](names["rigid"], names["lumped"])
+    axes = plt.gca()
+    left, right = sorted(axes.get_xlim())
+    paths = [line.get_xdata() for line in axes.lines if len(line.get_xdata()) == 5]
+    assert len(paths) == 2
+    assert all(left < place < right for path in paths for place in path)
+    plt.close("all")
