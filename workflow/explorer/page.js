@@ -135,7 +135,7 @@ const page = (() => {
     const key = `${count} ${over} ${asked} ${now > 0}`;
     if (told === key) return;
     told = key;
-    const [upper, lower] = ["upper", "lower"].map((lane) => flight.bounces(flights[lane]));
+    const [upper, lower] = Object.keys(LANES).map((lane) => flight.bounces(flights[lane]));
     const given = thrown();
     const said = asked ? STEPS[asked][0](lower)
       : words.story({ upper, lower, given }, count, over, impact.zeta2 > 0, lone);
@@ -516,13 +516,18 @@ const page = (() => {
   const presets = [...element("preset").options].filter(({ value }) => value)
     .map((option) => [throw_address(read(option.value)), option]);
 
+  // Takes the state that an address says. Who names a chart sees it.
+  function enter(said) {
+    element("refused").textContent = "";
+    Object.assign(state, read(said));
+    if (/\bview=/.test(said)) element("rebound").open = true;
+  }
+
   // The state of the page's address; without one, that of the first ball.
   function restore() {
     clearTimeout(waiting);
     const said = place.hash.slice(1);
-    element("refused").textContent = "";
-    Object.assign(state, read(said.includes("=") ? said : presets[0][1].value));
-    if (/\bview=/.test(said)) element("rebound").open = true;
+    enter(said.includes("=") ? said : presets[0][1].value);
     now = 0;
     playing = false;
     // Who has a throw is not asked. Back asks nobody again.
@@ -542,12 +547,10 @@ const page = (() => {
 
   // Goes to the state that an address says, as a preset does.
   function go(to) {
-    element("refused").textContent = "";
-    Object.assign(state, read(to));
-    if (/\bview=/.test(to)) element("rebound").open = true;
+    enter(to);
     go_to(0);
     changed();
   }
 
-  return { go, impact: () => impact };
+  return { go };
 })();

@@ -228,7 +228,8 @@ const stage = (() => {
   function lens_of(lane, bounce, now, tip) {
     const side = tip[0] < frame.width / 2 ? 1 : -1;
     const room = (side > 0 ? frame.width - tip[0] : tip[0]) - frame.radius - 30;
-    const size = mode.hall ? Math.min(HALL_LENS * (mode.lone ? 1.5 : 1), (frame.floor - NAME) / 2 - 3, room / (2 * lanes().length) - 4)
+    const large = HALL_LENS * (mode.lone ? 1.5 : 1);
+    const size = mode.hall ? Math.min(large, (frame.floor - NAME) / 2 - 3, room / (2 * lanes().length) - 4)
       : Math.min(LENS, frame.sky / 2 - 3);
     const beyond = mode.hall && lane === "upper" ? 2 * size + 8 : 0;
     const x = tip[0] + side * (frame.radius + 14 + size + beyond);
