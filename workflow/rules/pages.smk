@@ -126,13 +126,14 @@ rule your_copy:
         "../scripts/write_your_copy.py"
 
 
+# All that a job of these takes from the project.
+LOGGING = files("src/stronge1994/__init__.py", "src/stronge1994/logs.py")
+
+
 rule wheel:
     """The solver as one file, which lies beside the notebooks of students, who install it."""
     input:
-        code=[
-            "workflow/scripts/build_wheel.py",
-            *files("src/stronge1994/__init__.py", "src/stronge1994/logs.py"),
-        ],
+        code=["workflow/scripts/build_wheel.py", *LOGGING],
         packages="environment.txt",
         source=[*PACKAGE, "src/planarimpact/README.md", "pyproject.toml", "LICENSE"],
     output:
@@ -148,10 +149,7 @@ rule wheel:
 rule lite:
     """A web site on which the notebooks of students run in the browser. No part of `all`: it needs JupyterLite."""
     input:
-        code=[
-            "workflow/scripts/build_lite.py",
-            *files("src/stronge1994/__init__.py", "src/stronge1994/logs.py"),
-        ],
+        code=["workflow/scripts/build_lite.py", *LOGGING],
         packages="workflow/envs/lite.txt",
         files=[
             *rules.wheel.output,
