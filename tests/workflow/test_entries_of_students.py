@@ -1,4 +1,7 @@
-"""What a student writes into the first lecture: all cells use it, or one sentence refuses it."""
+"""What a student writes into a lecture: all cells use it, or one sentence refuses it."""
+
+import ast
+import re
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -9,6 +12,8 @@ from stronge1994.pages import stated_numbers
 from tests.workflow.project import ROOT
 
 FOLDER = ROOT / "workflow/notebooks"
+OTHERS = "choosing_a_model", "where_friction_turns_round"
+WRONG = "0,5", "'0.5'", "None", "float('nan')", "-1", "1e9"
 ROW = "[0, 100, 300, 40]"
 ROWS = f"[{ROW}, [2, 120, 250, 40]]"
 LATER = "[[12, 140, 50, 40], [14, 150, 90, 50]]"
@@ -21,25 +26,30 @@ def readings(steep, after=LATER, flat=ROWS):
     return "READINGS = {" + ", ".join(f"{half}: {rows}" for half, rows in filled) + "}"
 
 
+def code_of(name):
+    """The cells of code of a lecture by their ids, without its checks."""
+    cells = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4).cells
+    return {
+        cell.id: cell.source
+        for cell in cells
+        if cell.cell_type == "code" and not stated_numbers.is_check(cell)
+    }
+
+
 @pytest.fixture
 def executed(monkeypatch):
     """Function: the names after all cells, or some, with `entry` below the cell `place`."""
     matplotlib.use("Agg")
     monkeypatch.chdir(FOLDER)
-    book = nbformat.read(FOLDER / "why_a_superball_comes_back.ipynb", as_version=4)
-    cells = [
-        cell
-        for cell in book.cells
-        if cell.cell_type == "code" and not stated_numbers.is_check(cell)
-    ]
+    code = code_of("why_a_superball_comes_back")
 
     def run(entry, place="numbers", only=()):
         names = {}
         with matplotlib.rc_context():
-            for cell in cells:
-                if not only or cell.id in only:
-                    source = f"{cell.source}\n{entry}" if cell.id == place else cell.source
-                    exec(compile(source, cell.id, "exec"), names)
+            for cell, source in code.items():
+                if not only or cell in only:
+                    source = f"{source}\n{entry}" if cell == place else source
+                    exec(compile(source, cell, "exec"), names)
                 plt.close("all")
         return names
 
@@ -148,3 +158,47 @@ def test_a_changed_throw_stays_in_its_picture(entry, executed):
     assert len(paths) == 2
     assert all(left < place < right for path in paths for place in path)
     plt.close("all")
+
+
+# ---- the other lectures
+
+
+def numbers_of(name):
+    """The names of the numbers that a student may change."""
+    return re.findall(r"^([A-Z_]+) = ", code_of(name)["numbers"], flags=re.M)
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_each_wrong_number_is_one_sentence_with_its_name_and_what_is_allowed(name, monkeypatch):
+    monkeypatch.chdir(FOLDER)
+    matplotlib.use("Agg")
+    code, names = code_of(name), {}
+    with matplotlib.rc_context():
+        exec(code["style"], names)
+    exec(code["numbers"], names)
+    for number in numbers_of(name):
+        for entry in WRONG:
+            changed, count = re.subn(
+                rf"(?m)^{number} = \S+", f"{number} = {entry}", code["numbers"]
+            )
+            assert count == 1
+            with pytest.raises(ValueError, match=rf"^{number} = .*: allowed is one number") as said:
+                exec(changed, names)  # `allow` looks there
+            assert "\n" not in str(said.value)
+        exec(code["numbers"], names)
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_each_number_is_used_and_each_cell_to_play_with_starts_from_them(name):
+    code = code_of(name)
+    cells = list(code)
+    below = {place: code[place] for place in cells[cells.index("numbers") + 1 :]}
+    for number in numbers_of(name):
+        assert re.search(rf"\b{number}\b", "\n".join(below.values())), number
+    games = [source for source in below.values() if re.search(r"^play\(", source, flags=re.M)]
+    assert len(games) == 3
+    for game in games:
+        shown = next(one for one in ast.parse(game).body if isinstance(one, ast.FunctionDef))
+        starts = {getattr(value, "id", ast.unparse(value)) for value in shown.args.defaults}
+        assert starts and starts <= {*numbers_of(name)}
+        assert "print(f" in ast.unparse(shown), "says what it used"

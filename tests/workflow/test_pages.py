@@ -226,17 +226,24 @@ PRINTED = """(() => {
 })()"""
 
 
-def test_the_report_prints_on_twelve_pages_with_nothing_clipped(figures, tab):
-    """The marks keep their colours, without which their white words cannot be read."""
-    tab.open((figures / "report.html").as_uri())
+def printed(tab, path, script):
+    """What a script finds of a page as it is printed, and the number of its sheets."""
+    tab.open(path.as_uri())
     tab.resize(703, 1030)  # A4 in pixels, without its margins of 12 mm
     tab.prefer(media="print")
     try:
-        assert tab.evaluate(PRINTED) == []
+        found = tab.evaluate(script)
         pdf = base64.b64decode(tab.call("Page.printToPDF", preferCSSPageSize=True)["data"])
     finally:
         tab.prefer(media="screen")
-    assert 1 < len(re.findall(rb"/Type\s*/Page\b", pdf)) <= 12
+    return found, len(re.findall(rb"/Type\s*/Page\b", pdf))
+
+
+def test_the_report_prints_on_twelve_pages_with_nothing_clipped(figures, tab):
+    """The marks keep their colours, without which their white words cannot be read."""
+    clipped, sheets = printed(tab, figures / "report.html", PRINTED)
+    assert clipped == []
+    assert 1 < sheets <= 12
     assert tab.problems == []
 
 
@@ -254,16 +261,9 @@ LECTURES = sorted(path.stem for path in (ROOT / "workflow/notebooks").glob("*.ip
 
 @pytest.mark.parametrize("name", LECTURES)
 def test_each_slide_is_printed_whole_on_a_page_whatever_the_window(figures, tab, name):
-    tab.open((figures / f"slides_{name}.html").as_uri())
-    tab.resize(703, 1030)
-    tab.prefer(media="print")
-    try:
-        assert tab.evaluate(LOST) == []
-        pdf = base64.b64decode(tab.call("Page.printToPDF", preferCSSPageSize=True)["data"])
-    finally:
-        tab.prefer(media="screen")
-    count = tab.evaluate("document.querySelectorAll('.slide').length")
-    assert len(re.findall(rb"/Type\s*/Page\b", pdf)) == count > 20
+    lost, sheets = printed(tab, figures / f"slides_{name}.html", LOST)
+    assert lost == []
+    assert sheets == tab.evaluate("document.querySelectorAll('.slide').length") > 20
 
 
 def test_a_key_in_a_box_turns_no_slide(figures, tab):
