@@ -115,6 +115,8 @@ def changed(path, old="", new=""):
         (f"{FOLDER}/fig6/drawing.py", ("", "# edited"), {"draw_fig6", "report", "gate"}),
         (f"{FOLDER}/fig2/curves.py", ("", "# edited"), OF_FIG2 | PAGES | GATE),
         ("data/kharaz2001/spin.csv", ("69.96", "69.97"), {"draw_fig5", "judge_fig5", *REPORT}),
+        ("data/stronge1994/source.yaml", ("tolerance: 0.005", "tolerance: 0.006"),
+         {"ledger", "draw_fig5", "judge_fig5", *REPORT}),
         ("data/accepted/verdicts.csv", ("", "a,differs,,1,m,1"), {"report", "gate"}),
         ("workflow/config.yaml", ("superball: {tolerance: 1.0e-4", "superball: {tolerance: 0.1"),
          {"scene_superball", "judge_scene_superball", *REPORT}),
