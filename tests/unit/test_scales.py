@@ -26,7 +26,7 @@ def judged(tmp_path):
     axes = {"x": axis | {"column": "angle", "unit": "deg"}}
     axes |= {"y": axis | {"column": "peak_force", "unit": "N"}}
 
-    def rows(points, **allowance):
+    def rows(points, of_other_settings=(), **allowance):
         entries = {
             force: {"metric": "distance", "scale": "force", "reason": "so", **allowance}
             | {"curve": {"variant": force}, "reference": f"they/{force}"}
@@ -40,7 +40,10 @@ def judged(tmp_path):
             pd.DataFrame({"angle [deg]": x, "peak_force [N]": y}).to_csv(file, index=False)
             references[f"they/{force}"] |= {"kind": "digitised", "path": str(file)}
         every = {force: Comparison.of(force, entries[force], references) for force in entries}
-        found = compare("fig0", str(path), entries, references, 0.001, {})
+        for force in of_other_settings:
+            references[f"they/{force}"] |= {"settings": {"speed": 1.0}}
+        run = {"speed": 2.0}
+        found = compare("fig0", str(path), entries, references, 0.001, run)
         return {row["comparison"]: row for row in found}, every, table
 
     return rows
@@ -118,3 +121,16 @@ def test_the_ratio_of_two_scales_is_judged_apart(friction, allowed, verdict, jud
         variance += 1 / np.sum(y**2 / squared) + allowed**2 / np.mean(y**2)
     sigmas = np.log(friction / 0.876) / np.sqrt(variance)
     assert float(row["max [sigma]"]) == pytest.approx(abs(sigmas), rel=0.02, abs=0.01)
+
+
+@pytest.mark.parametrize("force", SHAPES)
+def test_points_of_other_settings_do_not_pull_a_shared_scale(force, judged):
+    """They are not compared, nor is the ratio; the other force keeps its own scale."""
+    both = {"normal": points("normal", 0.876), "friction": points("friction", 0.876)}
+    (other,) = SHAPES.keys() - {force}
+    alone, *_ = judged({other: both[other]})
+    rows, *_ = judged(both | {force: points(force, 2.0)}, of_other_settings=[force])
+    for name in (force, "ratio"):
+        assert (rows[name]["verdict"], rows[name]["why"]) == ("not compared", "other settings")
+    assert "this run has 2" in rows["ratio"]["note"]
+    assert rows[other]["note"] == alone[other]["note"]

@@ -104,6 +104,20 @@ def test_the_contact_sheet_names_the_largest_difference_of_a_figure(pages):
     assert told["fig2"].endswith("not compared")
 
 
+def test_the_largest_difference_is_that_of_any_comparison_of_an_item():
+    """Also of one that does not stand first; a worse verdict counts more."""
+    sizes = {"a": "0.1", "b": "0.9", "c": "0.5", "d": "2", "e": ""}
+    verdicts = [{"comparison": name, "max": size} for name, size in sizes.items()]
+    items = [
+        figure_table.Item(list(names), verdict, "", names, "", "", "", "")
+        for names, verdict in (("ab", "differs"), ("c", "differs"), ("d", "agrees"))
+    ]
+    awaited = figure_table.Item(["e"], "not compared", "", "e", "", "", "", "")
+    for paper, others, wanted in ((items, [], "ab"), ([awaited], items[1:], "c")):
+        row = figure_table.FigureRow("fig6", "", 0, [], paper, others)
+        assert write_report.largest(row, verdicts).name == wanted
+
+
 def test_sigmas_in_the_reasons_of_comparisons_are_those_of_the_run(first_run):
     """How many sigmas a point is off, as the figure of Kharaz' points says it."""
     residuals = pd.read_csv(first_run[0] / "results/residuals/fig5.csv")

@@ -584,6 +584,9 @@ def test_what_is_not_saved_is_asked_for_and_all_can_be_saved_and_opened_again(op
     reader.read(RUBBER, [(2, -1), (5, -1)])
     page.fill("#who", "Li <b>")
     assert page.evaluate(leave)
+    page.select_option("#panel", "fig8a")
+    reader.click([(0, 0)])
+    page.select_option("#panel", "fig5")
     path = reader.save(tmp_path, "#save-all")
     assert path.suffix == ".json" and not page.evaluate(leave)
     size, before = page.get_attribute("#sheet", "viewBox"), page.inner_html("#signs")
@@ -597,6 +600,9 @@ def test_what_is_not_saved_is_asked_for_and_all_can_be_saved_and_opened_again(op
         page.fill("#zoom", "3")
         assert page.inner_html("#signs") == before and page.input_value("#who") == "Li b"
         assert "9 marks" in reader.text("#fit") and "could not tell" in reader.text("#sigmas")
+        page.select_option("#panel", "fig8a")
+        assert page.locator("#signs .mark").count() == 1  # of a panel that was not seen
+        page.select_option("#panel", "fig5")
     for text in ("{", "[]", '{"state": {"panel": "fig99"}}'):
         file = {"name": "a.json", "mimeType": "application/json", "buffer": text.encode()}
         page.set_input_files("#file", file)
@@ -679,11 +685,12 @@ def test_curves_are_hidden_marks_moved_and_the_picture_saved_on_a_phone_too(open
     reader = opened("fig5", [])
     page, mark = reader.page, "#signs .chosen"
     before = page.get_attribute(mark, "d")
-    page.keyboard.press("ArrowRight")
-    moved = [float(d[1:].split(",")[0]) for d in (before, page.get_attribute(mark, "d"))]
-    assert moved[1] - moved[0] == pytest.approx(0.1)
-    page.keyboard.press("Control+z")
-    assert page.get_attribute(mark, "d") == before
+    for key, pixels in (("ArrowRight", 0.1), ("Shift+ArrowRight", 1.0)):
+        page.keyboard.press(key)
+        moved = [float(d[1:].split(",")[0]) for d in (before, page.get_attribute(mark, "d"))]
+        assert moved[1] - moved[0] == pytest.approx(pixels)
+        page.keyboard.press("Control+z")
+        assert page.get_attribute(mark, "d") == before
     page.mouse.move(*reader.place(7, -1))
     assert re.search(r"; \d+\.\d px from “", reader.text("#pointer"))
     found = re.findall(r"(?:incidence|velocity) (\S+)", reader.text("#pointer"))
