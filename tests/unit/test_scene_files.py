@@ -144,6 +144,7 @@ def test_text_may_have_any_form(table, change):
 def test_rows_of_another_width_are_bad_rows(table, capsys):
     """Among other bad rows, which keep their numbers; and where no good one is left."""
     header, *rows = table.read_text().splitlines()
+    rows[5] = rows[5].replace("2.5", "-2.5")
     rows[1:5] = ["1,2", " ", rows[1], rows[2].replace("2.5", "fast"), f"{rows[3]},1"]
     table.write_text("\n".join([header, *rows]))
     out = table.with_name("out.csv")
@@ -151,8 +152,9 @@ def test_rows_of_another_width_are_bad_rows(table, capsys):
     assert "in.csv: row 2: young_modulus [Pa] = ''" in capsys.readouterr().err
     assert main(["scene", str(table), str(out), "--skip-bad", "--chunk", "3"]) == 0
     bad = pd.read_csv(f"{out}.bad.csv").values.tolist()
-    assert [row for row, _ in bad] == [2, 4, 5] and len(pd.read_csv(out)) == 4
+    assert [row for row, _ in bad] == [2, 4, 5, 6] and len(pd.read_csv(out)) == 3
     wanted = ["young_modulus [Pa] = ''", "velocity_normal [m/s] = 'fast'", "11 cells where 10"]
+    wanted += ["normal velocity of approach = -2.5"]
     assert all(problem.startswith(words) for words, (_, problem) in zip(wanted, bad, strict=True))
     table.write_text(f"{header}\n1\n2\n")
     assert main(["scene", str(table), str(out), "--skip-bad"]) == 0
