@@ -202,7 +202,7 @@ def sprayed(rng):
     rows = []
     ends = 0.1, 0.1 * (1 + near[1]), *0.3 * (1 + near[:3])  # nothing is solved below 0.1
     for e in (*ends, 0.6, rng.uniform(0.3, 0.9), 1 - 1e-9, 1):
-        for zeta2 in (1.0, rng.uniform(1.0, 1.5), 1.5):
+        for zeta2 in (1.0, rng.uniform(1.0, 1.5), 1.5, 2.4):
             for loss in spheres.LOSSES:
                 least = max(e, spheres.LEAST_RESTITUTION[loss])
                 limit = float(continuum.slip_throughout_limit(3.5, zeta2, least, loss=loss))

@@ -233,7 +233,7 @@ def test_whether_to_solve_is_yes_or_no(solve):
         collide(pair, UP, BALL, [0.5, 0, -1.0], [0, 0, 0], solve=solve)
 
 
-RUBBER = bodies.Material(5e6, 0.5)
+RUBBER, GLASS = bodies.Material(5e6, 0.5), bodies.Material(70e9, 0.22)
 CAUTIONS = [
     ((STEEL, STEEL), {"friction": 0.2, "restitution": 0.4, "loss": "plastic"}, None, 0),
     ((STEEL, STEEL), {"friction": 0.2, "restitution": 0.39, "loss": "plastic"}, None, 1),
@@ -241,6 +241,8 @@ CAUTIONS = [
     ((STEEL, STEEL), {"friction": 0.5, "restitution": 1.0}, None, 0),
     ((STEEL,), {"friction": 0.1, "restitution": 1.0}, None, 4),
     ((STEEL,), {"friction": 0.36, "restitution": 1.0}, None, 0),
+    ((STEEL, GLASS), {"friction": 0.2, "restitution": 1.0}, None, 4),
+    ((GLASS, STEEL), {"friction": 0.2, "restitution": 1.0}, None, 4),
     ((RUBBER,), {"friction": 0.1, "restitution": 0.4, "loss": "viscous"}, None, 0),
     ((RUBBER,), {"friction": 0.1, "restitution": 1.0}, "lumped.hysteretic", 8),
     ((RUBBER,), {"friction": 0.1, "restitution": 0.9, "loss": "viscous"}, "lumped.hysteretic", 9),
@@ -253,7 +255,7 @@ CAUTIONS = [
 
 @pytest.mark.parametrize(("materials", "values", "model", "code"), CAUTIONS)
 def test_cautions_are_those_of_the_evidence(materials, values, model, code):
-    """For one impact, for many, for those that slide throughout, and for head-on ones."""
+    """For one impact, many, those that slide throughout, head-on ones; unlike bodies either way."""
     pair = Pair(*materials, **values)
     velocity = np.array([[0.05, 0, -1.0], [30, 0, -1], [0, 0, -1], [0, 0, 1]])
     many = collide(pair, UP, BALL, velocity, [0, 0, 0], model=model)
