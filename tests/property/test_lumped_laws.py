@@ -187,7 +187,9 @@ def test_one_and_many_and_history_agree(impacts, found, loss):
         slack = rounding((1.0, contact.normal.max()), loss)
         assert (np.abs(contact.friction_force) <= contact.normal + slack).all(), point
         phases = sum(event.kind in ("stick", "slip") for event in contact.events)
-        assert (phases > 3) == (alone.regime == Regime.MULTIPLE), point
+        # Where the last phase shrinks to nothing, rounding decides whether there is one.
+        near = lumped.rebound(x * (1 + STEP * np.arange(-1, 2)), beta, zeta2, e, loss=loss).regime
+        assert (phases > 3) in (near == Regime.MULTIPLE), point
         energy = contact.velocity**2 / (2 * beta) + contact.spring**2 / (2 * zeta2)
         slack = rounding(point, loss) * max(x, beta) / beta
         assert (np.diff(energy) <= slack).all(), point
