@@ -163,18 +163,21 @@ RESULT = {
         lambda s: s.answers.error,
     ),
     "model_form": Result(
-        "m/s", "how far that velocity would move with the other loss", lambda s: s.form
+        "m/s",
+        "how far that velocity would move with the other loss, to about 0.01 mu v2(0); NaN where "
+        "that is not known",
+        lambda s: s.form,
     ),
     "regime": Result(
         "", "the order of stick and slip", lambda s: _words(s.answers.regime, Regime.__members__)
     ),
     "incidence": Result(
         "",
-        "tangential over normal speed of the contact point, over friction",
+        "tangential over normal speed of the contact point, over friction; inf without friction",
         lambda s: s.impacts.incidence_of(np.arange(s.form.size)),
     ),
     "peak_normal_force": Result(
-        "N", "NaN where restitution is below 0.022", lambda s: s.peak_normal
+        "N", "by the loss; NaN where restitution is below 0.022", lambda s: s.peak_normal
     ),
     "peak_friction_force": Result("N", "", _peak_friction),
     "energy_lost": Result(
@@ -265,19 +268,14 @@ def solve(
     -------
     DataFrame
         `table` with its index and columns, and then: the state after, named as before with
-        `_after`; restitution and loss, where the table does not have them; the velocity of the
-        contact point after the impact, in the direction of incidence [m/s]; `model`; `error_bound`,
-        the largest error of that velocity against the continuum [m/s]; `model_form`, how far it
-        would move with the other loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known;
-        `regime`; `incidence` v1(0)/(mu v2(0)), 0 where v1(0) = 0, else inf without friction;
-        largest normal force, by the normal law of the loss, and friction [N]; `energy_lost [J]`;
-        `caution`, why the answer may not hold, as names of `collision.Caution`.
+        `_after`; restitution and loss, where the table does not have them; and the columns of
+        `RESULT`, which says what they are.
 
     Raises
     ------
     InputError
-        For what is no DataFrame, columns that are missing, misspelt or do not go together, or a bad
-        row, by its number from 1, such as one below restitution 1 without a loss.
+        For what is no DataFrame, wrong columns, or a bad row, by its number from 1, such as one
+        below restitution 1 without a loss.
     ConvergenceError
         If the continuum does not reach the tolerance, by the row. It takes milliseconds an impact,
         at mass ratios of hundreds up to seconds; above some 10 000 most impacts end like this.

@@ -8,6 +8,9 @@ doubles the number of steps until the answer, extrapolated once, meets the toler
 
 Gross slip from the start of contact needs no steps: its closed form is exact. So are impacts that
 slide throughout.
+
+Arguments and errors: `rebound` says what its arguments mean, also for the other functions, and what
+is refused.
 """
 
 from __future__ import annotations
@@ -194,30 +197,12 @@ def slip_throughout_limit(
     *,
     loss: SpheresLoss | None = None,
 ) -> Array:
-    """Incidence from which the contact slides throughout.
+    """Incidence from which the contact slides throughout; all arguments broadcast.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : array_like
-        As in `rebound`.
-    loss : str, optional
-        As in `rebound`.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        max(zeta^2, beta + e (beta - zeta^2)), where the contact would stick last at separation.
-        With plastic loss it may be larger: while metal flows in shear, friction below its limit
-        can hold the middle of the contact.
-
-    Raises
-    ------
-    InputError
-        As `rebound`.
-
-    Notes
-    -----
-    Derived in `planarimpact.common.sliding`, and for plastic loss in `inelastic.plastic`.
+    max(zeta^2, beta + e (beta - zeta^2)), where the contact would stick last at separation. With
+    plastic loss it may be larger: while metal flows in shear, friction below its limit can hold the
+    middle of the contact. Derived in `planarimpact.common.sliding`, and for plastic loss in
+    `inelastic.plastic`. Arguments and errors: `planarimpact.continuum`.
 
     Examples
     --------
@@ -245,26 +230,9 @@ def history(
 ) -> ContinuumHistory:
     """Forces, velocity and radius of stick over one contact.
 
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : float
-        As in `rebound`; scalars.
-    loss : str, optional
-        As in `rebound`.
-    tolerance : float
-        Largest error allowed in friction and velocity at every instant, above 0. It also
-        decides how many instants there are, at least 128.
-
-    Returns
-    -------
-    ContinuumHistory
-
-    Raises
-    ------
-    InputError
-        As `rebound`; also if an argument is not scalar.
-    ConvergenceError
-        As `rebound`.
+    Arguments and errors: `planarimpact.continuum`; it takes scalars alone. Here the tolerance is
+    the largest error allowed in friction and velocity at every instant. It also decides how many
+    instants there are, at least 128.
 
     Notes
     -----

@@ -149,11 +149,6 @@ def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
     stick_radius : ndarray, shape (steps,)
         Radius inside which the contact sticks, in a_max.
 
-    Raises
-    ------
-    InputError
-        If an argument is not finite or out of its range, or the shapes do not fit.
-
     Notes
     -----
     Exact for a path that is straight, in r^2 and displacement, between its points. For a contact

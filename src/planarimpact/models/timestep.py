@@ -113,31 +113,15 @@ def rebound(
     *,
     steps: int = STEPS,
 ) -> Rebound:
-    """State at separation by a law without dashpots.
+    """State at separation by a law without dashpots: `LINEAR`, `MINDLIN` or `MINDLIN_RESCALED`.
 
-    Parameters
-    ----------
-    law : Law
-        `LINEAR`, `MINDLIN` or `MINDLIN_RESCALED`.
-    incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        As in `planarimpact.lumped.rebound`.
-    steps : int
-        Over the duration of contact; 3 to 10^7, and at least the number of the table above.
+    `steps` is their number over the duration of contact; 3 to 10^7, and at least that of the table
+    above for each impact. Other arguments and errors: `planarimpact.lumped`.
 
-    Returns
-    -------
-    Rebound
-        The same fields and units as `planarimpact.lumped.rebound`; peak_friction, at most 1, and
-        regime are what the steps show. A slip or a stick that is shorter than a step is missed: if
-        the last slip is so short, the regime ends in stick. But a contact whose slip changes its
-        direction counts as having stuck once, even if no step was in stick. Where the steps or
-        `MINDLIN` create energy, dissipation is negative.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, shapes do not broadcast, or there
-        are too few steps for one of the impacts.
+    Peak_friction, at most 1, and regime are what the steps show. A slip or a stick that is shorter
+    than a step is missed: if the last slip is so short, the regime ends in stick. But a contact
+    whose slip changes its direction counts as having stuck once, even if no step was in stick.
+    Where the steps or `MINDLIN` create energy, dissipation is negative.
 
     Examples
     --------

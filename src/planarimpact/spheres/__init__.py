@@ -49,16 +49,7 @@ def covers(
 ) -> Booleans:
     """Whether the table has an answer for these groups, at every incidence; they broadcast.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : array_like
-        As in `planarimpact.lumped.rebound`.
-    loss : str, optional
-        "viscous" or "plastic"; without one, whether there is an answer with both of them.
-
-    Returns
-    -------
-    ndarray of bool or bool
+    Arguments: those of `rebound`; without a loss, whether there is an answer with both of them.
 
     Examples
     --------
@@ -98,13 +89,7 @@ def error_bound(
     Below x = 1 the error is x times that. With plastic loss it is smaller above a restitution from
     0.62 (mass over stiffness ratio 3.5) to 0.96 (1.1), 0.67 for solid spheres of steel.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution, plastic : ndarray, shape (n,)
-
-    Returns
-    -------
-    ndarray, shape (n,)
+    Arguments and answer are arrays of shape (n,).
 
     Examples
     --------
