@@ -31,8 +31,8 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.bodies import Body, Material
-from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, Pair, mechanics, methods, model_form
-from planarimpact.collision.facts import cautions
+from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, Pair, mechanics, methods
+from planarimpact.collision.facts import cautions, model_forms
 from planarimpact.collision.mechanics import Impacts, State
 from planarimpact.common import checks, files
 from planarimpact.common.arrays import Array, Booleans, Integers
@@ -377,7 +377,7 @@ class Report:
         answers = methods.answers(impacts, self.tolerance, peaks=True)
         unsolved = {int(good[i]): message for i, message in answers.unsolved.items()}
         self._refuse(unsolved, skip_bad, ConvergenceError)
-        form = model_form.model_forms(impacts, answers.place, answers.velocity)
+        form = model_forms(impacts, answers.place, answers.velocity)
         codes = cautions(impacts, answers.place, answers.regime)
         solved = Solved(impacts, peak_normal, answers, form, codes)
         result = table.iloc[good].assign(**_after(solved, names))
