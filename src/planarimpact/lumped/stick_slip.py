@@ -31,9 +31,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact.common import sliding
-from planarimpact.common.angles import HALF_PI, sin_cos
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import ConvergenceError
+from planarimpact.common.floats import HALF_PI, sin_cos
 from planarimpact.common.results import Regime
 from planarimpact.lumped import slip_onset
 

@@ -136,7 +136,7 @@ def rebound(
     _, stiffest, _ = _spring(law, 1.0)
     frequency = math.sqrt(stiffest) * np.sqrt(beta / zeta2)
     angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
-    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE)
+    steps = _stable(steps, float(np.max(angle / STABLE_ANGLE, initial=3)))
     x = np.abs(signed).reshape(-1)
     velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
     regime = np.empty(x.size, np.uint8)
@@ -145,6 +145,23 @@ def rebound(
         outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
         velocity[part], impulse[part], peak[part], regime[part] = outcome
     return Rebound.of(signed, velocity, impulse, peak, regime)
+
+
+def _stable(steps: int, fewest: float) -> int:
+    """Check the number of steps: fewer than `fewest` do not follow the tangential oscillation."""
+    steps = checks.count("steps", steps, 3)
+    if fewest > checks.MOST:
+        raise checks.InputError(
+            f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
+            "are needed, or the tangential oscillation is unstable; allowed are up to "
+            f"{checks.MOST}"
+        )
+    if steps < fewest:
+        raise checks.InputError(
+            f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {checks.MOST} "
+            "(with fewer explicit steps the tangential oscillation is unstable)"
+        )
+    return steps
 
 
 def with_dashpots(

@@ -25,8 +25,8 @@ from typing import Any
 import numpy as np
 
 from planarimpact.common import roots
-from planarimpact.common.angles import HALF_PI
 from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.floats import HALF_PI
 from planarimpact.phases import TIE, Passed
 from planarimpact.phases.runs import Order
 
