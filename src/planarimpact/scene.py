@@ -139,11 +139,6 @@ def _model(solved: Solved) -> Any:
     return _words(places[solved.answers.place], models)
 
 
-def _caution(solved: Solved) -> Any:
-    """Names of cautions by their sums."""
-    return _words(solved.caution, CAUTIONS)
-
-
 def _peak_friction(solved: Solved) -> Array:
     """Without friction there is no force of it, also where the normal force is not known."""
     unit, peak = solved.impacts.unit, solved.answers.peak_friction
@@ -183,7 +178,11 @@ RESULT = {
     "energy_lost": Result(
         "J", "", lambda s: sum(mechanics.energies_lost(s.impacts, s.answers.change))
     ),
-    "caution": Result("", "why the answer may not hold: --explain has the words", _caution),
+    "caution": Result(
+        "",
+        "why the answer may not hold: --explain has the words",
+        lambda s: _words(s.caution, CAUTIONS),
+    ),
 }
 
 
