@@ -251,17 +251,13 @@ def solve(
         whose names are not similar to these, are carried over. A table without rows has an empty
         result.
     tolerance : float
-        Largest error of the velocity of the contact point at separation, in mu v2(0), and of the
-        peak friction, in mu times the peak normal force; 1e-10 to 1. The default is that of
-        `collide`: the whole table of spheres meets it. The error is measured
-        against the continuum: the elastic one where restitution = 1, else the viscous or the
-        plastic one. Elastic pairs reach some 1e-8, others 1e-5. How far a continuum is from nature
+        As in `planarimpact.collide`; it is also that of the peak friction, in mu times the peak
+        normal force. Elastic pairs reach some 1e-8, others 1e-5. How far a continuum is from nature
         is not part of it; `model_form` is a first measure of that.
     loss : str, optional
-        What takes the normal energy where restitution is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield). A table may have a column of this name instead, with empty
-        cells where restitution is 1, or the column relaxation_time, which is viscous, or
-        yield_pressure, which is plastic.
+        "viscous" or "plastic", as in a `Pair`, where restitution is below 1. A table may have a
+        column of this name instead, with empty cells where restitution is 1, or a column
+        relaxation_time or yield_pressure.
 
     Returns
     -------
@@ -440,13 +436,8 @@ def solve_file(
 
     Raises
     ------
-    InputError
-        As `solve`, or if a file is no table or has no rows. Row 1 is the first one below the
-        header; blank lines do not count.
-    ConvergenceError
-        As `solve`.
-    ImportError
-        If pandas, or pyarrow for Parquet, is not there; it says what to install.
+    InputError, ConvergenceError, ImportError
+        As `solve`, or if a file is no table or has no rows; Parquet needs pyarrow, too.
     OSError
         If a file cannot be read or written.
 

@@ -72,13 +72,13 @@ class Pair:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, the loss is missing where it is needed, a pair
-        has its restitution in two ways or in none, or shapes do not broadcast.
+        Also if the loss is missing where it is needed, or a pair has its restitution in two ways or
+        in none.
 
     Notes
     -----
-    In a table some pairs may have a restitution, and others a relaxation time or a yield pressure:
-    what a pair does not have is NaN. `table[i, j]` is a pair or an array of pairs.
+    In a table some pairs may have a restitution, and others a relaxation time or a yield pressure.
+    `table[i, j]` is a pair or an array of pairs.
 
     Examples
     --------

@@ -233,13 +233,6 @@ def counted_among(rows: Integers) -> Iterator[None]:
         raise
 
 
-def in_parts(count: int, together: int, solve: Callable[[slice], Solved]) -> Solved:
-    """What `refine` wants of `integrate`, solved for `together` impacts at a time."""
-    parts = [slice(start, start + together) for start in range(0, max(count, 1), together)]
-    fields = zip(*(solve(part) for part in parts), strict=True)
-    return Solved._make(np.concatenate(field, axis=-1) for field in fields)
-
-
 def sign_changes(force: Array) -> Integers:
     """How often each column changes sign; zeros do not count."""
     sign = np.sign(force)

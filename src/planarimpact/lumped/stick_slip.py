@@ -46,7 +46,7 @@ class Impacts(NamedTuple):
     zeta2: Any
     e: Any
 
-    def take(self, which: Integers) -> "Impacts":
+    def take(self, which: slice | Integers) -> "Impacts":
         """The impacts with these indices."""
         return Impacts._make(field[which] for field in self)
 

@@ -69,7 +69,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common import checks
-from planarimpact.common.arrays import Array, ArrayLike, Integers, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Integers, Numbers, in_parts
 from planarimpact.common.results import Rebound, Regime
 from planarimpact.normal_impact import hertz
 
@@ -137,14 +137,11 @@ def rebound(
     frequency = math.sqrt(stiffest) * np.sqrt(beta / zeta2)
     angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
     steps = _stable(steps, float(np.max(angle / STABLE_ANGLE, initial=3)))
-    x = np.abs(signed).reshape(-1)
-    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
-    regime = np.empty(x.size, np.uint8)
-    for start in range(0, x.size, CHUNK):
-        part = slice(start, start + CHUNK)
-        outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
-        velocity[part], impulse[part], peak[part], regime[part] = outcome
-    return Rebound.of(signed, velocity, impulse, peak, regime)
+    flat = np.abs(signed).reshape(-1), beta, zeta2, e
+    solved = in_parts(
+        e.size, CHUNK, lambda part: _impacts(law, steps, *(group[part] for group in flat))
+    )
+    return Rebound.of(signed, *solved)
 
 
 def _stable(steps: int, fewest: float) -> int:
@@ -393,11 +390,11 @@ def _latching_motion(law: Law, e: Array, steps: int) -> Iterator[_Instant]:
 
 
 def _impacts(
-    law: Law, x: Array, beta: Array, zeta2: Array, e: Array, steps: int
+    law: Law, steps: int, x: Array, beta: Array, zeta2: Array, e: Array
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, impulse, peak friction and regime of impacts solved together, x >= 0."""
     # Normal motion depends on e alone: it is integrated once where all impacts have the same e.
-    if (e == e[0]).all():
+    if (e == e[:1]).all():
         e = e[:1]
     # Tangential velocity over zeta^2, half a step ahead.
     start = np.maximum(x / zeta2, LEAST)
@@ -430,5 +427,5 @@ def _impacts(
     impulse = np.where(slides, impulse, x / beta - final / beta)
     largest_force, _, _ = _spring(law, 1.0)
     peak = np.maximum(highest, -lowest) * start_share / largest_force
-    regime = Regime.of_phases(sticks, starts_in_slip, slips)
+    regime = Regime.of_phases(sticks, starts_in_slip, slips).astype(np.uint8)
     return final, impulse, np.minimum(peak, 1.0), regime

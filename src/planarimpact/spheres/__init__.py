@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from planarimpact.common import checks, sliding
-from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers, in_parts
 from planarimpact.common.losses import CODES, PLASTIC, SPHERES, SpheresLosses
 from planarimpact.common.results import Rebound, Regime, of_groups
 from planarimpact.spheres import table
@@ -143,8 +143,7 @@ def rebound(
     Raises
     ------
     InputError
-        If an argument is not a finite real number in its range, the table does not cover it, the
-        loss is none of these two, e < 1 has none, or shapes do not broadcast.
+        As `planarimpact.continuum.rebound`, or if the table does not cover an impact.
 
     Examples
     --------
@@ -169,16 +168,9 @@ table of spheres with loss = 'plastic'
     plastic = codes == CODES[PLASTIC]
     if not _covers(beta, zeta2, e, plastic).all():
         _refuse_uncovered(beta, zeta2, e, plastic)
-    plastic = plastic.reshape(-1)
-    x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
-    velocity, peak, work = np.empty((3, x.size))
-    regime = np.empty(x.size, dtype=np.uint8)
-    for start in range(0, x.size, CHUNK):
-        part = slice(start, start + CHUNK)
-        velocity[part], peak[part], work[part], regime[part] = _rebound(
-            x[part], beta[part], zeta2[part], e[part], plastic[part], forces
-        )
-    return Rebound.shaped(signed, velocity, peak, work, regime)
+    flat = [a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, plastic)]
+    solved = in_parts(e.size, CHUNK, lambda part: _rebound(forces, *(a[part] for a in flat)))
+    return Rebound.shaped(signed, *solved)
 
 
 def _refuse_uncovered(beta: Array, zeta2: Array, e: Array, plastic: Booleans) -> None:
@@ -197,7 +189,7 @@ def _refuse_uncovered(beta: Array, zeta2: Array, e: Array, plastic: Booleans) ->
 
 
 def _rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans, forces: bool
+    forces: bool, x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, peak friction, work of friction and regime of impacts with x >= 0."""
     y, b = x / zeta2, beta / zeta2

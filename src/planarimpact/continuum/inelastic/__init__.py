@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common import sliding
-from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers, in_parts
 from planarimpact.common.losses import PLASTIC, VISCOUS, Loss
 from planarimpact.common.results import Regime
 from planarimpact.continuum import refinement
@@ -95,7 +95,7 @@ def rebound(
             x, beta, zeta2, e = (group[part] for group in groups)
             return _summary(path(x, beta, zeta2, e, kind, steps))
 
-        return refinement.in_parts(groups[0].size, max(32, CELLS // steps), solve)
+        return Solved._make(in_parts(groups[0].size, max(32, CELLS // steps), solve))
 
     with refinement.counted_among(sticks):
         values, counts = refinement.refine(
