@@ -206,8 +206,8 @@ def collide(
         Of bodies that strike off their centre: the part along the surface of the way from the
         centre of mass to the point of contact [m]; the radius is the part along the normal. All
         motion must be in the plane of offset and normal. See `collision.off_centre`: the model is
-        "lumped.hysteretic", "lumped.unloading-stiffness" or "rigid", and the first one if it is
-        left out and the pair has e = 1 or a loss of this name.
+        "rigid" or a lumped one without dashpots; if it is left out, that of the pair's loss, and at
+        e = 1 "lumped.hysteretic".
 
     Returns
     -------

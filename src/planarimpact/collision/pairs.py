@@ -51,8 +51,8 @@ class Pair:
         [Pa], of materials that yield, see `bodies.plastic_restitution`: e follows from the speed.
     loss : str or array_like of str, optional
         What takes the energy where `restitution` is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield); or "hysteretic" (the paper's) or "unloading-stiffness", for
-        `collide` with such a model. An empty text, None or NaN in an array means none.
+        "plastic" (metals that yield); or one of `lumped.LOSSES`, for `collide` with such a model.
+        An empty text, None or NaN in an array means none.
     stiffness_ratio : array_like, optional
         zeta^2, normal over tangential stiffness, where there are no materials.
     effective_modulus : array_like, optional
