@@ -587,11 +587,6 @@ def _named(headers: Iterable[object]) -> dict[str, str]:
 
     Refused are those that do not make up bodies and a state, that are there twice, that misspell a
     known one, or that the result has. Others are for the user alone.
-
-    >>> _named(["radius [mm]"])
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: column 'radius [mm]': the unit of radius is [m]
     """
     header_of: dict[str, str] = {}
     others: list[str] = []

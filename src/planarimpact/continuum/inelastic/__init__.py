@@ -74,12 +74,6 @@ def rebound(
     """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
 
     For x >= 0 and e below 1; `kind` is one of `MOTIONS`. Raises `Unsolved` as `refinement.refine`.
-
-    Examples
-    --------
-    >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, MOTIONS[VISCOUS], np.array([1e-5]))[0].round(4)
-    array([-0.4805])
     """
     motion = kind(e)
     slides = x >= motion.slides_from(beta, zeta2)
