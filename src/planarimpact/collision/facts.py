@@ -26,38 +26,20 @@ FORM_TOLERANCE = 1e-2
 
 
 class Facts(NamedTuple):
-    """Impacts with their answers, and how their values get the shape of the arguments.
+    """Impacts with their answers, and how their values get the shape of the arguments."""
 
-    Attributes
-    ----------
-    whole : callable
-        Of values, shape (n,), and a value where bodies do not approach: in the shape of arguments.
-    impacts : Impacts
-        It needs no vectors.
-    place, change, regime : ndarray, shape (n,)
-        As in `methods.Answers`.
-    asked : tuple of str
-        Names of the models that were asked for.
-    spared : Caution
-        Those that do not concern the model that was asked for.
-    energies : tuple of ndarray, shape (n,), or None
-        Lost along the normal and along the surface [J], where `mechanics` does not know it.
-    form : ndarray or None
-        The model form, in its shape, where it is known already.
-    solve : bool
-        Whether the continuum may be solved for it.
-    """
-
+    # Of values, shape (n,), and a value where bodies do not approach: in the shape of arguments.
     whole: Callable[[Any, Any], Any]
-    impacts: Impacts
-    place: Integers
+    impacts: Impacts  # without vectors
+    place: Integers  # this and the next two as in `methods.Answers`
     change: Array
     regime: Integers
-    asked: tuple[str, ...] = ()
-    spared: Caution = Caution.NONE
+    asked: tuple[str, ...] = ()  # names of the models that were asked for
+    spared: Caution = Caution.NONE  # those that do not concern the model that was asked for
+    # Lost along the normal and along the surface [J], where `mechanics` does not know it.
     energies: tuple[Array, Array] | None = None
-    form: Array | None = None
-    solve: bool = True
+    form: Array | None = None  # the model form, in its shape, where it is known already
+    solve: bool = True  # whether the continuum may be solved for it
 
 
 def model_forms(

@@ -44,19 +44,7 @@ CELLS = 2**15
 
 
 class Path(NamedTuple):
-    """Impacts step by step, one a column, in the units of `planarimpact.lumped.rebound`.
-
-    Attributes
-    ----------
-    time : ndarray, shape (steps + 1, n)
-        In that of compression.
-    normal, friction_force : ndarray, shape (steps + 1, n)
-        Over the largest normal force, and mu times that.
-    velocity, radius, stick_radius : ndarray, shape (steps + 1, n)
-        The radii over the largest radius of contact.
-    peak, work : ndarray, shape (n,)
-        Largest friction, between the instants too, and its work.
-    """
+    """Impacts step by step, arrays of shape (steps + 1, n), in the units of `ContinuumHistory`."""
 
     time: Array
     normal: Array
@@ -64,8 +52,8 @@ class Path(NamedTuple):
     velocity: Array
     radius: Array
     stick_radius: Array
-    peak: Array
-    work: Array
+    peak: Array  # largest friction, between the instants too, shape (n,)
+    work: Array  # of friction, in that of `planarimpact.lumped.rebound`, shape (n,)
 
 
 def rebound(
