@@ -360,8 +360,10 @@ RULES = {
 }
 
 
-def impact(*values: ArrayLike) -> tuple[Array, ...]:
+def impact(*values: ArrayLike, **others: Any) -> tuple[Array, ...]:
     """Check and broadcast incidence, mass_ratio, stiffness_ratio and restitution, in this order.
+
+    Others are checked arrays that broadcast with them.
 
     Examples
     --------
@@ -369,7 +371,7 @@ def impact(*values: ArrayLike) -> tuple[Array, ...]:
     [[0.5, 2.0], [3.5, 3.5], [1.21, 1.21], [1.0, 1.0]]
     """
     named = zip(RULES, values, strict=True)
-    return broadcast(**{name: RULES[name](value) for name, value in named})
+    return broadcast(**{name: RULES[name](value) for name, value in named}, **others)
 
 
 def number(

@@ -160,17 +160,12 @@ def rebound(
     >>> [round(float(w), 3) for w in viscous.velocity]
     [-0.065, -0.363, 2.4]
     """
-    signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if tolerance is None:
         tolerance = ELASTIC_TOLERANCE if loss is None else LOSSY_TOLERANCE
     rule = "finite numbers above 0"  # of a tiny incidence it may be tiny too
-    signed, beta, zeta2, e, allowed = checks.broadcast(
-        incidence=signed,
-        mass_ratio=beta,
-        stiffness_ratio=zeta2,
-        restitution=e,
-        tolerance=checks.checked("tolerance", tolerance, rule, SMALLEST),
-    )
+    allowed = checks.checked("tolerance", tolerance, rule, SMALLEST)
+    groups = incidence, mass_ratio, stiffness_ratio, restitution
+    signed, beta, zeta2, e, allowed = checks.impact(*groups, tolerance=allowed)
     kind = _kind_of_motion(restitution, loss)
     x, beta, zeta2, e, allowed = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, allowed))
     velocity, peak, work = (np.empty(x.size) for _ in range(3))
@@ -179,12 +174,12 @@ def rebound(
         rows = np.flatnonzero((e == 1) == is_elastic)
         if not rows.size:
             continue
-        groups = x[rows], beta[rows], zeta2[rows]
+        own = x[rows], beta[rows], zeta2[rows]
         with refinement.counted_among(rows):
             if is_elastic or kind is None:
-                solved = elastic.rebound(*groups, allowed[rows])
+                solved = elastic.rebound(*own, allowed[rows])
             else:
-                solved = inelastic.rebound(*groups, e[rows], kind, allowed[rows])
+                solved = inelastic.rebound(*own, e[rows], kind, allowed[rows])
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 

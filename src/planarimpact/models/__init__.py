@@ -116,10 +116,11 @@ def rebound(
 lumped.hysteretic (the paper's), ...
     """
     chosen = get(model)
-    for key in settings.keys() - chosen.settings:
-        known = f"the settings {', '.join(chosen.settings)}" if chosen.settings else "no settings"
-        said = checks.in_ascii(f"{key} = {checks.brief(settings[key])}: {chosen.name}")
-        raise checks.InputError(f"{said} has {known}")
+    for key, value in settings.items():
+        if key not in chosen.settings:
+            names = f"the settings {', '.join(chosen.settings)}"
+            said = checks.in_ascii(f"{key} = {checks.brief(value)}: {chosen.name}")
+            raise checks.InputError(f"{said} has {names if chosen.settings else 'no settings'}")
     result = chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
     if not isinstance(result, Rebound):
         said = f"rebound of {chosen.name} gives {type(result).__name__}: allowed is a Rebound"

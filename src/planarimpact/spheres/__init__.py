@@ -10,6 +10,8 @@ Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's ratio fr
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from planarimpact.common import checks, sliding
@@ -156,19 +158,14 @@ def rebound(
     planarimpact.InputError: restitution = 0.2: allowed are numbers from 0.3 to 1, for the \
 table of spheres with loss = 'plastic'
     """
-    groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    codes = checks.losses(loss, SPHERES)
-    try:
-        signed, beta, zeta2, e, codes = np.broadcast_arrays(*groups, codes)
-    except ValueError:
-        shapes = f"groups {groups[0].shape}, loss {codes.shape}"
-        raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
+    groups = incidence, mass_ratio, stiffness_ratio, restitution
+    signed, beta, zeta2, e, codes = checks.impact(*groups, loss=checks.losses(loss, SPHERES))
     if (codes < 0).any():
         checks.require_loss(np.where(codes < 0, e, 1.0), LOSSES)
     plastic = codes == CODES[PLASTIC]
     if not _covers(beta, zeta2, e, plastic).all():
         _refuse_uncovered(beta, zeta2, e, plastic)
-    flat = [a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, plastic)]
+    flat: list[Any] = [a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, plastic)]
     solved = in_parts(e.size, CHUNK, lambda part: _rebound(forces, *(a[part] for a in flat)))
     return Rebound.shaped(signed, *solved)
 
