@@ -719,16 +719,13 @@ def yield_speed(
 
     The yield pressure is the largest pressure that the contact carries. It lies between 1.6 times
     the yield stress, where yield begins below the surface, and about 3 times, where the whole
-    contact yields (Johnson, Contact Mechanics, 1985). Arguments and errors: `planarimpact.bodies`.
+    contact yields (Johnson, Contact Mechanics, 1985). The law is Thornton's, see
+    `plastic_restitution`. Arguments and errors: `planarimpact.bodies`.
 
     Notes
     -----
     At the radius of contact a_y = pi p_y R/(2 E*) the pressure of Hertz in the centre is p_y. The
     approach is d_y = a_y^2/R there, and m2 v_y^2/2 = (8/15) E* R^(1/2) d_y^(5/2).
-
-    References
-    ----------
-    C. Thornton, J. Appl. Mech. 64 (1997) 383-386.
 
     Examples
     --------

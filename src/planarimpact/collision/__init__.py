@@ -190,10 +190,9 @@ def collide(
         beginning with "continuum" have it. The default is that of the table of spheres:
         about a microsecond an impact in an array, some tens of them for one alone, and tens of
         milliseconds for the first one, as the table is read.
-        Impacts for which the table is too coarse, or which it does not cover (e below 0.1, with
-        plastic loss 0.3; m2/m1 over zeta^2 beyond 1.1 to 3.5; zeta^2 above 3.5), take milliseconds
-        each in a batch of hundreds, alone 0.1 to 0.3 s, and at mass ratios of hundreds up to
-        seconds; `continuum.rebound` says what it can meet.
+        Impacts for which the table is too coarse, or which it does not cover (`spheres.covers`),
+        take milliseconds each in a batch of hundreds, alone 0.1 to 0.3 s, and at mass ratios of
+        hundreds up to seconds; `continuum.rebound` says what it can meet.
     model : str or Model, optional
         A name of `planarimpact.models.MODELS`, or a Model of your own, that answers in place of the
         cheapest one within the tolerance: "lumped.hysteretic" is the paper's, "rigid" has no

@@ -134,13 +134,12 @@ def rebound(
     Returns
     -------
     Rebound
-        The same fields and units as `planarimpact.continuum.rebound`, within `ERROR_BOUND` of it,
-        times the stiffness ratio over 1.6 where that is larger than 1, below x = 1 within x times
-        that, but no reversals. The error of plastic dissipation is up to
-        |velocity|/mass_ratio times that of velocity. Where slip throughout
-        begins, and where parts of the table meet, the velocity jumps: by up to 0.001 mu v2(0) with
-        plastic loss, 4e-6 with viscous. Impacts that slide as a
-        whole more often than their regime says are not called MULTIPLE.
+        The same fields and units as `planarimpact.continuum.rebound`, but no reversals, within
+        `error_bound` of it, below x = 1 within x times that. The error of plastic dissipation is up
+        to |velocity|/mass_ratio times that of velocity. Where slip throughout begins, and where
+        parts of the table meet, the velocity jumps: by up to 0.001 mu v2(0) with plastic loss, 4e-6
+        with viscous. Impacts that slide as a whole more often than their regime says are not called
+        MULTIPLE.
 
     Raises
     ------
