@@ -104,6 +104,7 @@ def _rebound(options: argparse.Namespace) -> None:
     if options.angle is not None:
         x = bodies.incidence_from_angle(options.angle, options.friction)
     model, settings = models.get(options.model), dict(options.setting)
+    model.refuse_others(settings)
     groups = {name: getattr(options, name) for name in GROUPS}
     result = models.rebound(model, x, **groups, **settings)
     fields = {**result._asdict(), "regime": Regime.names(result.regime)}

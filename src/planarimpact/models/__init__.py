@@ -15,7 +15,7 @@ may stand wherever a name does; as an entry of `MODELS` it is known by its name,
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
@@ -81,6 +81,14 @@ class Model:
     source: str = ""
     loss: str = ""
 
+    def refuse_others(self, settings: Mapping[str, object]) -> None:
+        """Refuse settings that this model does not have; the message names the first one."""
+        for key, value in settings.items():
+            if key not in self.settings:
+                names = f"the settings {', '.join(self.settings)}"
+                said = checks.in_ascii(f"{key} = {checks.brief(value)}: {self.name}")
+                raise checks.InputError(f"{said} has {names if self.settings else 'no settings'}")
+
 
 def get(model: str | Model) -> Model:
     """The entry of a model, by its name or itself. Arguments and errors: `planarimpact.models`.
@@ -116,11 +124,7 @@ def rebound(
 lumped.hysteretic (the paper's), ...
     """
     chosen = get(model)
-    for key, value in settings.items():
-        if key not in chosen.settings:
-            names = f"the settings {', '.join(chosen.settings)}"
-            said = checks.in_ascii(f"{key} = {checks.brief(value)}: {chosen.name}")
-            raise checks.InputError(f"{said} has {names if chosen.settings else 'no settings'}")
+    chosen.refuse_others(settings)
     result = chosen.rebound(incidence, mass_ratio, stiffness_ratio, restitution, **settings)
     if not isinstance(result, Rebound):
         said = f"rebound of {chosen.name} gives {type(result).__name__}: allowed is a Rebound"
