@@ -103,12 +103,6 @@ def path(
     """Integrate from contact to separation, in an even number of steps: half are compression.
 
     For x > 0 and e below 1, shape (n,); `kind` is one of `MOTIONS`.
-
-    Examples
-    --------
-    >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> path(*groups, MOTIONS[PLASTIC], 128).velocity[-1].round(3)
-    array([-0.185])
     """
     motion, column = kind(e), np.arange(x.size)
     slips, onset = x > zeta2, _put_springs(motion, x, beta, zeta2, steps)

@@ -13,15 +13,7 @@ from planarimpact.normal_impact import kelvin_voigt as law
 
 
 class ViscousMotion(NormalMotion):
-    """Normal motions of viscous spheres.
-
-    Examples
-    --------
-    >>> motion = ViscousMotion(np.array([0.8]))
-    >>> motion.put_springs(np.linspace(0.0, 1.0, 9)[:, None])
-    >>> round(float(motion.velocity[-1, 0]), 9)
-    -0.8
-    """
+    """Normal motions of viscous spheres."""
 
     dashpots = True
 
