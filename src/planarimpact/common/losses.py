@@ -3,8 +3,9 @@
 Code passes a `Loss`. An array of losses has the places of their `NAMES`, and -1 where there is
 none. Names are for users and files. At e = 1 all losses of a model are the same.
 
-A new loss of the lumped model is a new row. One of the continuum needs a motion besides, see
-`planarimpact.continuum.inelastic`.
+A new loss of the lumped model is a new row, with its own `stiffness_ratio`, and its name in the
+types below: solvers, models, collisions and messages follow. One of the continuum needs a motion
+besides, see `planarimpact.continuum.inelastic`.
 """
 
 from collections.abc import Callable, Sequence
