@@ -193,35 +193,21 @@ def rebound(
     >>> bool(abs(lost - result.friction_work - result.hysteresis) < 1e-15)
     True
     """
-    arguments = _checked(
+    result, given_up = solved(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
-    result, given_up = _rebound(arguments)
     if given_up:
-        if not arguments[0].ndim:
+        if not np.ndim(result.tangential):
             raise ConvergenceError(given_up)
         # As NumPy does where a function of an array has no value for an entry.
         warnings.warn(given_up, RuntimeWarning, stacklevel=3)
     return result
 
 
-def quiet_rebound(
-    tangential: Array,
-    normal: Array,
-    inverse_mass: InverseMass,
-    friction: Array,
-    restitution: Array,
-    stiffness_ratio: Array,
-    loss: str,
-) -> NoncollinearRebound:
-    """As `rebound`, without a warning: NaN says what the solver gives up."""
-    groups = tangential, normal, inverse_mass, friction, restitution, stiffness_ratio
-    return _rebound(_checked(*groups, 1.0, loss))[0]
-
-
-def _rebound(arguments: tuple[Array, ...]) -> tuple[NoncollinearRebound, str]:
-    """State at separation of checked arguments, and what is said of those that are given up."""
-    v2, m2, kappa, groups = _groups(arguments)
+def solved(*arguments: Any) -> tuple[NoncollinearRebound, str]:
+    """As `rebound`, and what is said of impacts that are given up, whose numbers are NaN."""
+    checked = _checked(*arguments)
+    v2, m2, kappa, groups = _groups(checked)
     contacts = OffCentre(*groups)
     unsolved = solve(contacts)
     force_unit = np.sqrt(m2) * np.sqrt(kappa) * v2
@@ -237,7 +223,7 @@ def _rebound(arguments: tuple[Array, ...]) -> tuple[NoncollinearRebound, str]:
         contacts.duration * np.sqrt(m2) / np.sqrt(kappa),
     ]
     regime, jams = contacts.order.regimes().astype(np.uint8), contacts.jams
-    shape = arguments[0].shape
+    shape = checked[0].shape
     if unsolved.size:
         for field in fields:
             field[unsolved] = np.nan
