@@ -117,11 +117,6 @@ def rebound(
     --------
     >>> float(rebound("rigid", 8.0).velocity)
     1.0
-    >>> rebound("lumped", 2.0, restitution=0.8)  # doctest: +ELLIPSIS
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: restitution = 0.8: below 1 it needs a model with a loss: choose \
-lumped.hysteretic (the paper's), ...
     """
     chosen = get(model)
     chosen.refuse_others(settings)

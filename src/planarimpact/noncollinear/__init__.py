@@ -148,10 +148,6 @@ def rebound(
         at the end of contact, and a coupled contact that separates and closes again under such a
         force is not solved.
 
-    Returns
-    -------
-    NoncollinearRebound
-
     Raises
     ------
     InputError

@@ -151,11 +151,6 @@ def rebound(
     >>> impacts = [0.5, 2.0, 8.0], 3.5, 17 / 14, [1.0, 0.8, 0.6]
     >>> rebound(*impacts, loss=["viscous", "plastic", "plastic"]).velocity.round(3).tolist()
     [0.061, -0.189, 2.4]
-    >>> rebound(2.0, restitution=0.2, loss="plastic")
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: restitution = 0.2: allowed are numbers from 0.3 to 1, for the \
-table of spheres with loss = 'plastic'
     """
     groups = incidence, mass_ratio, stiffness_ratio, restitution
     signed, beta, zeta2, e, codes = checks.impact(*groups, loss=checks.losses(loss, SPHERES))

@@ -47,10 +47,7 @@ def places(intervals: int, slip_ends: Array) -> tuple[Array, Integers]:
 class Springs(ABC):
     """The springs of many contacts, innermost first, moved together from instant to instant.
 
-    Attributes
-    ----------
-    stick_radius : ndarray, shape (n,)
-        Radius inside which no spring slipped in the last step.
+    `stick_radius`, shape (n,), is the radius inside which no spring slipped in the last step.
     """
 
     def __init__(self, motion: "NormalMotion") -> None:
