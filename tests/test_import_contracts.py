@@ -92,9 +92,8 @@ PUBLIC_MODULES = {
     "models.laws",
     "models.timestep",
     "noncollinear.rigid",
-    "collision.facts",  # these four solve scenes
+    "collision.facts",  # these three solve scenes
     "collision.mechanics",
-    "collision.model_form",
     "collision.methods",
     "collision.presets",
     "spheres.table",  # which export writes in other languages, and which has one impact in floats

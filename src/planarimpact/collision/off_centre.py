@@ -174,7 +174,7 @@ def _rebound(
     mu, zeta2 = impacts.friction[rows], impacts.stiffness_ratio[rows]
     if model is MODELS["rigid"]:
         return noncollinear.rigid.rebound(v1, v2, inverse_mass, mu, e)
-    return noncollinear.quiet_rebound(v1, v2, inverse_mass, mu, e, zeta2, model.loss)
+    return noncollinear.solved(v1, v2, inverse_mass, mu, e, zeta2, 1.0, model.loss)[0]
 
 
 def after(impacts: Impacts, plane: Plane, impulses: Array) -> tuple[State, State, Array]:

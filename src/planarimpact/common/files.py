@@ -13,20 +13,8 @@ from planarimpact.common.checks import InputError
 def written(path: str | Path) -> Iterator[Path]:
     """Give a path to write to; the file gets its own name when the block ends well.
 
-    Parameters
-    ----------
-    path : str or Path
-        A new file, or one that is there and is replaced; links are followed.
-
-    Yields
-    ------
-    Path
-        The same name in a new folder next to it, which is removed after an error too.
-
-    Raises
-    ------
-    InputError
-        If `path` is there and no regular file, or its folder is not.
+    `path` is a new file, or one that is there and is replaced; links are followed. Until the end it
+    has the same name in a new folder next to it, which is removed after an error too.
 
     Examples
     --------

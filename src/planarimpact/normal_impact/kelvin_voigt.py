@@ -88,13 +88,7 @@ def _loss(restitution: Array) -> Array:
 
 @cache
 def series() -> Chebyshev:
-    """Restitution against the root of the relaxation time, from 0 to the root of `SLOWEST`.
-
-    Examples
-    --------
-    >>> float(series()(0.5**0.5).round(5))
-    0.46894
-    """
+    """Restitution against the root of the relaxation time, from 0 to the root of `SLOWEST`."""
 
     def restitution_at(root: Array) -> Array:
         return -_both_halves(root * root)[1].last[1]
@@ -176,15 +170,8 @@ def at_largest_force(compression: "Half", tau: Array) -> tuple[Array, Array]:
 class Half:
     """Compression or restitution at even steps of sigma, by the method of Runge and Kutta.
 
-    The state is radius, velocity, time. The half ends where the component `ends` of it is 0.
-
-    Attributes
-    ----------
-    values : ndarray, shape (STEPS + 1, 3, m)
-    end : ndarray, shape (m,)
-        sigma at the end.
-    last : ndarray, shape (3, m)
-        State there.
+    The state is radius, velocity, time; its `values` have the shape (STEPS + 1, 3, m). The half
+    ends where the component `ends` is 0: at sigma = `end`, shape (m,), in the state `last`, (3, m).
     """
 
     def __init__(
