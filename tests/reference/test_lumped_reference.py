@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from planarimpact import Regime, lumped
-from tests.property import lumped_impacts
 from tests.reference_solutions import (
     extreme_tables,
     high_precision,
@@ -54,16 +53,6 @@ def test_every_impact_at_every_size_has_all_its_digits(tables):
         assert (error <= 100 * ULP * (np.abs(exact) + condition)).all(), name
 
 
-def test_one_impact_has_the_digits_of_the_table_too(tables):
-    """Of every threshold and every end of the parameters, in the way of floats."""
-    table = tables["hysteretic"]
-    many = answers(table, "hysteretic")
-    for place, point in enumerate(table[:4].T.tolist()):
-        alone = lumped.rebound(*point)
-        assert tuple(alone[:4]) == tuple(field[place] for field in many[:4]), point
-        assert isinstance(alone.velocity, float) and isinstance(alone.regime, Regime)
-
-
 def test_every_viscous_impact_has_12_digits_and_its_energy(tables):
     table = tables["viscous"]
     x, beta, *_ = table
@@ -89,13 +78,6 @@ def test_rows_are_what_the_references_compute(part):
         for one, other in zip(again.cells(0), row, strict=True):
             # Where the answer is 0 the reference has a rounding that depends on what ran before.
             assert one == other or max(abs(float(one)), abs(float(other))) < 1e-60
-
-
-@pytest.mark.parametrize(("loss", "places"), [("hysteretic", 5), ("viscous", 4)])
-def test_every_threshold_and_its_neighbours_are_in_the_table(tables, loss, places):
-    x, *groups = tables[loss][:4]
-    there = lumped_impacts.thresholds(*groups, loss)[:, :places] == x
-    assert there.any(axis=-1).all()
 
 
 def test_no_condition_is_inflated(tables):
