@@ -115,12 +115,6 @@ def test_a_contact_that_is_pushed_while_it_yields_flows_sideways(e, largest):
     assert rms_and_max(off)[1] == pytest.approx(largest, abs=2e-3)
 
 
-def test_a_pushed_contact_that_never_yields_stays_elastic():
-    approach, share = share_of_elastic(1 - 1e-9)
-    np.testing.assert_allclose(share, 1.0, rtol=1e-9)
-    assert approach[-1] == 1 and np.all(np.diff(approach) > 0)
-
-
 def test_series_and_sigma_follow_from_the_runs_and_every_run_is_planned():
     make = SimpleNamespace(**runpy.run_path(ELEMENTS / "make.py"))
     runs = pd.read_csv(make.RUNS)

@@ -50,31 +50,6 @@ def found(law, pair):
     return fit.fit(law, 3.5, zeta2, e, loss=loss, incidence_max=measure().INCIDENCE_MAX)
 
 
-@pytest.mark.parametrize(
-    "law", [timestep.LINEAR, timestep.MINDLIN, timestep.MINDLIN_RESCALED], ids=str
-)
-def test_without_loss_dashpots_change_nothing(law):
-    x = np.linspace(0, 8, 41)
-    wanted = timestep.rebound(law, x, 3.5, 17 / 14, steps=64).velocity
-    for one in (law, law._replace(limited=True)):
-        velocity = timestep.with_dashpots(one, x, 3.5, 14 / 17, 0.0, 1.0, steps=64)
-        np.testing.assert_allclose(velocity, wanted, atol=1e-12)
-
-
-@pytest.mark.parametrize("law", LAWS.values(), ids=map(str, LAWS))
-@pytest.mark.parametrize("e", [1.0, 0.3])
-def test_every_law_has_the_restitution_that_is_asked_for(law, e):
-    given = timestep.input_restitution_for(law, e)
-    assert timestep.restitution_after(law, given, 4000) == pytest.approx(e, abs=3e-4)
-    assert timestep.restitution_after(law, given) == pytest.approx(e, abs=2e-3)
-    # A contact that cannot pull slides throughout with mu times its normal impulse.
-    if law.limited:
-        slides = timestep.with_dashpots(law, np.array([1e3]), 3.5, 1.0, 0.0, given)
-        assert slides == pytest.approx(
-            1e3 - 3.5 * (1 + timestep.restitution_after(law, given)), abs=1e-9
-        )
-
-
 def linear(lines, yade, wall):
     """Stiffness and damping, normal and tangential, in the input of MercuryDPM or Yade."""
     if not yade:
