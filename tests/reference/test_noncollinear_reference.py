@@ -99,17 +99,3 @@ def test_no_restitution_is_the_limit_for_any_body(e):
     bound = 2 * np.pi * e * largest
     for name in ("tangential", "peak_friction"):
         assert (np.abs(getattr(little, name) - getattr(limit, name)) <= bound).all(), name
-
-
-@pytest.mark.parametrize(
-    "impact", [(-27.1, 0.1175, -0.32445, 8.75, 1.0), (18.6, 0.754, 0.6514, 2.74, 7.31)]
-)
-def test_friction_that_just_suffices_compresses_a_contact_again(impact):
-    """Held closed without restitution, then compressed beyond the earlier peak by less than 1 %."""
-    v1, mass_ratio, coupling, friction, stiffness_ratio = impact
-    mass = noncollinear.InverseMass(mass_ratio, coupling, 1.0)
-    limit, little = (
-        paper_rebound(v1, 1.0, mass, friction, e, stiffness_ratio) for e in (0.0, 0.003)
-    )
-    assert abs(little.tangential - limit.tangential) < 1e-4
-    assert abs(little.peak_normal - limit.peak_normal) < 1e-4

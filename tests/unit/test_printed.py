@@ -48,7 +48,7 @@ def quick(monkeypatch):
 @pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: figure.__name__.split(".")[-2])
 def test_as_printed_curves_are_added_on_request_and_change_no_other(figure, quick):
     settings = figure_settings.physics(config(), sources(), figure.__name__.split(".")[-2])
-    settings |= FIGURES[figure] | {"samples": 101}
+    settings |= FIGURES[figure] | {"samples": 51}
     plain, both = (figure.curves(**settings | {"as_printed": it}) for it in (False, True))
     added = both["model"] == PRINTED
     assert set(both["variant"][added]) == {"", "no solution"}

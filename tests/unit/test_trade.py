@@ -12,7 +12,7 @@ from stronge1994.pages import which_model
 from stronge1994.studies.trade import curves as trade
 
 TRIED = "steps", "tolerance"
-STEPS = np.linspace(-0.01, 0.01, 41)  # of incidence
+STEPS = np.linspace(-0.01, 0.01, 11)  # of incidence
 EVENLY, MAX = "max_velocity [mu v2(0)]", "max_velocity_with_kinks [mu v2(0)]"
 
 
