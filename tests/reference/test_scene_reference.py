@@ -24,7 +24,7 @@ KINDS = [("viscous", e) for e in (0.3, 0.6, 0.99, 1.0)]
 KINDS += [("plastic", e) for e in (0.3, 0.6, 0.9)]
 
 
-def random_scene(rng, count=42, pairs=21):
+def random_scene(rng, count=21, pairs=21):
     """Random pairs of mass ratios up to 7; half of the impacts stand beside a threshold."""
     of = np.arange(count) % pairs
     friction, normal = rng.uniform(0.02, 1.0, pairs)[of], rng.uniform(0.1, 5.0, count)

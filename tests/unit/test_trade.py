@@ -46,12 +46,6 @@ def test_a_batch_that_would_take_too_long_is_left_out_for_its_model_alone():
             assert set(columns) == set(words)
 
 
-def test_a_velocity_that_is_no_number_shows():
-    exact = models.rebound("lumped", [1.0, 2.0])
-    found = trade.errors(exact._replace(velocity=exact.velocity * float("nan")), exact)
-    assert found[EVENLY] != found[EVENLY]  # NaN: then the table is not written
-
-
 def test_the_largest_error_is_found_where_it_is_beside_a_kink():
     """Of a spline at zeta^2, of the table of spheres where slip throughout begins."""
     groups = {"mass_ratio": 3.5, "stiffness_ratio": 17 / 14, "restitution": 1.0}
