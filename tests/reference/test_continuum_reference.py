@@ -60,7 +60,7 @@ def test_velocities_meet_their_tolerance_by_a_second_code(loss, e, beta, zeta2):
 def test_the_table_is_what_its_command_writes():
     """A row, computed anew with the same circles and steps."""
     (row,) = (row for row in read("maw1976/rebound_nu_0.3") if row[0] == 4)
-    again = annuli_tables.checked(17 / 14, row[:1]).velocity
+    again = annuli_tables.checked(17 / 14, (row[0],)).velocity
     np.testing.assert_allclose(again, row[1], atol=5.1e-6)
 
 

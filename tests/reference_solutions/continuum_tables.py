@@ -3,7 +3,7 @@
     python -m tests.reference_solutions.continuum_tables data/elastic_continuum
 
 By a divided row of springs, checked by itself with half the springs and steps, Hertz's normal
-motion in closed form. Rebounds in the same folder are of tests/package_tables/rebound_tables.py.
+motion in closed form. Rebounds in the same folder are of tests/package_tables/annuli_tables.py.
 """
 
 import functools
