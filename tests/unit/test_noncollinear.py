@@ -115,24 +115,6 @@ def test_friction_is_largest_in_the_middle_of_a_swing_too():
     assert paper_rebound(*impact, *rest).peak_friction == pytest.approx(-forces.min(), rel=1e-7)
 
 
-def test_reloading_follows_the_line_of_unloading_up_to_the_earlier_peak():
-    """Friction compresses the contact again after its first maximum."""
-    mass = noncollinear.inverse_mass(1.032, 0.9537, -2.2135, 1.59155)
-    contact = paper_history(-12.425, 3.3405, mass, 2.3832, 0.0283, 2.2134, 300.7, 4000)
-    kinds = [str(event.kind) for event in contact.events]
-    assert kinds.count("maximum compression") == 2 and kinds.count("reloading") == 1
-    peaks = [e.normal for e in contact.events if str(e.kind) == "maximum compression"]
-    again = next(e.normal for e in contact.events if str(e.kind) == "reloading")
-    assert again == pytest.approx(peaks[0], rel=1e-14) and peaks[1] > peaks[0]
-    # Force and compression stay on the two lines.
-    loading = contact.normal_force - 300.7 * contact.compression
-    assert loading.max() <= 1e-12 * max(peaks)
-    rest = (1 - 0.0283**2) * contact.compression.max()
-    late = contact.time > contact.events[-3].time
-    line = 300.7 / 0.0283**2 * (contact.compression[late] - rest)
-    np.testing.assert_allclose(contact.normal_force[late], line, atol=1e-9 * max(peaks))
-
-
 def test_stiff_tangential_elements_come_to_the_rigid_impulse():
     """zeta^2 -> 0 where the contact slides on or comes to rest before it separates."""
     angles = np.array([-60.0, -30.0, 5.0, 60.0])
