@@ -90,31 +90,6 @@ def test_no_condition_is_inflated(tables):
     assert (np.minimum(np.minimum(velocity, peak), dissipation) >= 0).all()
 
 
-@pytest.mark.parametrize(
-    "point",
-    [
-        (1.0, 3.5, 1.21, 1e-3),  # the ends of the range
-        (2.0, 1e6, 1e4, 0.5),
-        (0.5, 1.0, 1e6, 0.9),
-        (1e-30, 3.5, 1.21, 0.7),
-        (2.0, 3.5, 0.035, 0.9),
-        # Slip that stops for a moment only, after N + tau N' has turned negative.
-        (13.123907112722152, 7.81391911697076, 0.14401259515680903, 0.8513419297972314),
-        # A last slip of no length: little loss, a soft tangential element.
-        (1.1802952482075958e-05, 1.530372937008003, 8.689591378611864, 0.999999996890692),
-        (3e-5, 4.2, 60.0, 1 - 1e-9),
-        (7e-4, 1.3, 2.1, 1 - 3e-6),
-        (4e-6, 7.5, 7.9, 1 - 2e-11),
-    ],
-)
-def test_viscous_impacts_outside_the_box_and_next_to_separation(point):
-    exact = viscous_precision.rebound(*point)
-    found = lumped.rebound(*point, loss="viscous")
-    for name, scale in zip(OUTPUTS, viscous_tables.scales(*point), strict=True):
-        error = abs(float(getattr(found, name) - getattr(exact, name)))
-        assert error <= viscous_tables.PROMISED * float(scale), name
-
-
 ORDERS = {
     ("stick",): Regime.STICK,
     ("slip", "stick"): Regime.SLIP_STICK,
