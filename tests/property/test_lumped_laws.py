@@ -61,12 +61,6 @@ def rounding(groups, loss):
     return share * np.maximum(groups[0], groups[1])
 
 
-def test_the_impacts_lie_on_both_sides_of_sticking_again(impacts):
-    _, beta, zeta2, e = impacts
-    fast = e * e > zeta2 / beta
-    assert 0.1 < fast.mean() < 0.9
-
-
 def test_friction_creates_no_energy_and_keeps_its_limit(impacts, found):
     assert (np.abs(found.velocity) <= impacts[0]).all()
     assert (found.dissipation >= 0).all() and np.isfinite(found.dissipation).all()
