@@ -65,7 +65,7 @@ def test_unloading_stiffness_is_the_elastic_stiffness_of_unloading():
 @pytest.mark.parametrize("groups", GROUPS)
 @pytest.mark.parametrize("x", [0.0, 0.05, 1.0, 2.5, 12.0])
 def test_a_history_is_that_of_its_rebound(groups, x, loss):
-    contact = lumped.history(x, *groups, samples=2000, loss=loss)
+    contact = lumped.history(x, *groups, samples=4000, loss=loss)
     result = lumped.rebound(x, *groups, loss=loss)
     share = np.abs(contact.friction_force).max() / contact.normal.max()
     assert share == pytest.approx(result.peak_friction, abs=1e-5)
