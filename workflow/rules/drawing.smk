@@ -5,7 +5,7 @@ IN_REPORT = {"category": "Figures", "labels": {"figure": "{figure}"}, "caption":
 rule draw:
     """Draw one figure from its curves; never solves."""
     input:
-        code=["workflow/scripts/draw.py", *DRAWING],
+        code=DRAWING,
         own=of_folder(without="curves.py"),
         curves="results/curves/{figure}.csv",
         series=of_figure("series"),
@@ -22,7 +22,7 @@ rule draw:
     params:
         settings=of_figure("drawing"),
     script:
-        "../scripts/draw.py"
+        "../scripts/job.py"
 
 
 use rule draw as draw_with_slide with:

@@ -1,7 +1,7 @@
 rule judge:
     """Compare a figure's curves or a scene with reference data. A row that fails is no error here."""
     input:
-        code=["workflow/scripts/judge.py", *JUDGING],
+        code=JUDGING,
         table=of_judged("table"),
         series=of_judged("series"),
     output:
@@ -15,13 +15,13 @@ rule judge:
     params:
         settings=of_judged("settings"),
     script:
-        "../scripts/judge.py"
+        "../scripts/job.py"
 
 
 rule verdicts:
     """All rows of the comparisons as one table, and for readers by figure. Never fails."""
     input:
-        code=["workflow/scripts/gather.py", *JUDGING],
+        code=JUDGING,
         tables=expand(rules.judge.output.verdicts, judged=JUDGED),
     output:
         table=report("results/verdicts.csv", category="Tables", caption="../report/verdicts.rst"),
@@ -34,13 +34,13 @@ rule verdicts:
         shows=lambda _: SHOWS,
         grades=GRADES,
     script:
-        "../scripts/gather.py"
+        "../scripts/job.py"
 
 
 rule check_ledger:
     """Check every entry of the paper's ledger against the paper's model, solved to rounding. Never fails."""
     input:
-        code=["workflow/scripts/check_ledger.py", *SOLVING, *JUDGING],
+        code=[*SOLVING, *JUDGING],
         facts="data/stronge1994/source.yaml",  # to which entries refer
     output:
         report("results/ledger.csv", category="Tables", caption="../report/ledger.rst"),
@@ -50,7 +50,7 @@ rule check_ledger:
     conda:
         "../envs/planarimpact.yaml"
     script:
-        "../scripts/check_ledger.py"
+        "../scripts/job.py"
 
 
 rule accept:
@@ -59,7 +59,7 @@ rule accept:
     It is no output, as the gate reads it. What FAILS, or is of other settings, is refused.
     """
     input:
-        code=["workflow/scripts/accept.py", *JUDGING],
+        code=JUDGING,
         verdicts=[rules.verdicts.output.table],
         ledger=rules.check_ledger.output[0],
     log:
@@ -67,13 +67,13 @@ rule accept:
     conda:
         "../envs/planarimpact.yaml"
     script:
-        "../scripts/accept.py"
+        "../scripts/job.py"
 
 
 rule gate:
     """Pass, or fail and say which rows are not as accepted. It waits for all that a run makes."""
     input:
-        code=["workflow/scripts/gate.py", *JUDGING],
+        code=JUDGING,
         verdicts=[rules.verdicts.output.table],
         ledger=rules.check_ledger.output[0],
         accepted=ACCEPTED,
@@ -90,13 +90,13 @@ rule gate:
         shows=lambda _: SHOWS,
         grades=GRADES,
     script:
-        "../scripts/gate.py"
+        "../scripts/job.py"
 
 
 use rule gate as gate_of_target with:
     # The same for a part of the run, by its own rows. Inputs are replaced, other params are kept.
     input:
-        code=["workflow/scripts/gate.py", *JUDGING],
+        code=JUDGING,
         verdicts=lambda wildcards: expand(rules.judge.output.verdicts, judged=TARGETS[wildcards.target]),
         ledger=lambda wildcards: rules.check_ledger.output[0] if wildcards.target == "ledger" else [],
         accepted=ACCEPTED,

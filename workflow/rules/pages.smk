@@ -12,7 +12,7 @@ OVERLAYS = {name: series["overlay"] for name, series in SERIES.items() if series
 rule report:
     """The run as pages: the report, its sources and settings, the ledger of the paper."""
     input:
-        code=["workflow/scripts/write_report.py", *SOLVER, *WRITING],
+        code=[*SOLVER, *WRITING],
         ledger="results/ledger.csv",
         accepted=ACCEPTED,
         verdicts="results/verdicts.csv",
@@ -45,7 +45,7 @@ rule report:
             "grades": GRADES,
         },
     script:
-        "../scripts/write_report.py"
+        "../scripts/job.py"
 
 
 # What a lecture, or a check of its texts, reads.
@@ -58,7 +58,7 @@ READ_BY = {
 rule lecture:
     """Run one lecture, with the checks of what its texts state, and write its pages."""
     input:
-        code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
+        code=[*SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
         tables=lambda wildcards: READ_BY.get(wildcards.notebook, []),
         style="workflow/notebooks/lecture.mplstyle",
@@ -77,13 +77,13 @@ rule lecture:
     conda:
         "../envs/planarimpact.yaml"
     script:
-        "../scripts/run_lecture.py"
+        "../scripts/job.py"
 
 
 rule explorer:
     """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
-        code=["workflow/scripts/write_explorer.py", *SOLVER, *WRITING],
+        code=[*SOLVER, *WRITING],
         sources=files("workflow/explorer/*.*"),
         start="workflow/report/index.html",
         parts=EVERY_PAGE,
@@ -97,13 +97,13 @@ rule explorer:
     params:
         settings=lambda _: settings.of_explorer(config),
     script:
-        "../scripts/write_explorer.py"
+        "../scripts/job.py"
 
 
 rule your_copy:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
-        code=["workflow/scripts/write_your_copy.py", *WRITING],
+        code=WRITING,
         sources=files("workflow/your_copy/**/*.*", "workflow/explorer/files.js"),
         curves=expand("results/curves/{figure}.csv", figure=PAPER),
         parts=EVERY_PAGE,
@@ -114,26 +114,23 @@ rule your_copy:
     conda:
         "../envs/planarimpact.yaml"
     params:
-        figures=PAPER,
-        series=lambda _: SERIES,
-        allowances=lambda _: {
-            entry["reference"]: entry["allowance"]
-            for entry in config["comparisons"].values()
-            if "allowance" in entry
+        settings=lambda _: {
+            "series": SERIES,
+            "allowances": {
+                entry["reference"]: entry["allowance"]
+                for entry in config["comparisons"].values()
+                if "allowance" in entry
+            },
+            "significance": config["significance"],
         },
-        significance=lambda _: config["significance"],
     script:
-        "../scripts/write_your_copy.py"
-
-
-# All that a job of these takes from the project.
-LOGGING = files("src/stronge1994/__init__.py", "src/stronge1994/logs.py")
+        "../scripts/job.py"
 
 
 rule wheel:
     """The solver as one file, which lies beside the notebooks of students, who install it."""
     input:
-        code=["workflow/scripts/build_wheel.py", *LOGGING],
+        code=JOB,
         packages="environment.txt",
         source=[*PACKAGE, "src/planarimpact/README.md", "pyproject.toml", "LICENSE"],
     output:
@@ -143,13 +140,13 @@ rule wheel:
     conda:
         "../envs/planarimpact.yaml"
     script:
-        "../scripts/build_wheel.py"
+        "../scripts/job.py"
 
 
 rule lite:
     """A web site on which the notebooks of students run in the browser. No part of `all`: it needs JupyterLite."""
     input:
-        code=["workflow/scripts/build_lite.py", *LOGGING],
+        code=JOB,
         packages="workflow/envs/lite.txt",
         files=[
             *rules.wheel.output,
@@ -166,7 +163,7 @@ rule lite:
     params:
         pyodide_url=config["lite"]["pyodide_url"],
     script:
-        "../scripts/build_lite.py"
+        "../scripts/job.py"
 
 
 PAGES = [

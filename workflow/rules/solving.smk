@@ -1,7 +1,7 @@
 rule curves:
     """Solve every curve of one figure."""
     input:
-        code=["workflow/scripts/solve.py", *SOLVING],
+        code=SOLVING,
         own=of_folder(without="drawing.py"),
         tables=of_figure("tables"),
     output:
@@ -18,13 +18,13 @@ rule curves:
     params:
         settings=of_figure("curves"),
     script:
-        "../scripts/solve.py"
+        "../scripts/job.py"
 
 
 rule scene:
     """Solve a table of impacts, each by the cheapest model that is good enough."""
     input:
-        code=["workflow/scripts/solve_scene.py", *SOLVING],
+        code=SOLVING,
         table="data/scenes/{scene}.csv",
     output:
         "results/scenes/{scene}.csv",
@@ -35,4 +35,4 @@ rule scene:
     params:
         tolerance=lambda wildcards: config["scenes"][wildcards.scene]["tolerance"],
     script:
-        "../scripts/solve_scene.py"
+        "../scripts/job.py"

@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
+import planarimpact
 from stronge1994 import goodness, tables
 from stronge1994.pages import templates
 from stronge1994.reference_data import LARGEST_SIGMA, Series, strict_yaml
@@ -32,13 +33,12 @@ REFUSED = {
 
 def page(
     paths: Sequence[str],
-    curves: Mapping[str, str],
+    curves: Sequence[str],
     series: Mapping[str, Any],
-    version: str,
     allowances: Mapping[str, Mapping[str, float]],
     significance: float,
 ) -> str:
-    """The page as text, from its sources, tables of curves by figure, and `{source/name: entry}`.
+    """The page as text, from its sources, tables of curves, and series `{source/name: entry}`.
 
     `allowances` are those of comparisons by their series. Without the curve that a setting of the
     run takes away, the page has the others.
@@ -49,13 +49,14 @@ def page(
         Markup("/*\n") + texts["LICENSE.papaparse.txt"] + Markup("*/\n") + texts[library]
     )
     stated = strict_yaml.load(str(texts["panels.yaml"]))["panels"]
-    read = {figure: tables.read(path) for figure, path in curves.items()}
+    read = {Path(path).stem: tables.read(path) for path in curves}
     panels = {name: _panel(panel, read[panel["figure"]], series) for name, panel in stated.items()}
     for one in (one for panel in panels.values() for one in panel["series"]):
         one["allowance"] = [allowances.get(one["id"], {}).get(axis, 0.0) for axis in "xy"]
     folder = next(Path(path).parent for path in paths if path.endswith("your_copy.html"))
     limits = noncentrality(significance)
-    told = {"version": version, "refused": REFUSED, "noncentrality": limits, "panels": panels}
+    told = {"version": planarimpact.__version__, "refused": REFUSED}
+    told |= {"noncentrality": limits, "panels": panels}
     data = json.dumps(told, ensure_ascii=False)
     template = templates.environment(folder).get_template("your_copy.html")
     return template.render(
