@@ -41,9 +41,9 @@ try:
 
     SOURCES = reference_data.load_all("data")
     ENTRIES = paper.entries(SOURCES["stronge1994"]["facts"])
-    configuration.check_config(config, SOURCES, ENTRIES)
-    FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
-    JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}
+    COMPARISONS = configuration.comparisons(config, SOURCES, ENTRIES)
+    FIGURES = {name: settings.of_figure(config, SOURCES, COMPARISONS, name) for name in config["figures"]}
+    JUDGED = {name: settings.of_judgement(config, COMPARISONS, name) for name in configuration.judged(config)}
 except (reference_data.SourceError, ledger_table.EntryError) as error:
     raise WorkflowError(str(error))
 
@@ -123,7 +123,7 @@ def made(names):
 
 def rows_of(names):
     """Names of the comparisons of some figures or scenes."""
-    return [title for name in names for title in JUDGED[name]["settings"]["comparisons"]]
+    return [one.name for name in names for one in settings.of(COMPARISONS, name)]
 
 
 def priority(wildcards):

@@ -1,12 +1,9 @@
 # Pages show what the tables of a run say. Each includes these beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html", "workflow/report/page.css"]
-SERIES = {
-    f"{source}/{name}": series
-    for source, entry in SOURCES.items()
-    for name, series in entry.get("series", {}).items()
-}
+NAMED = [f"{source}/{name}" for source in SOURCES for name in SOURCES[source].get("series", {})]
+SERIES = {name: reference_data.reference(SOURCES, name) for name in NAMED}
 # Pictures of prints under our curves, saved beside what was read there.
-OVERLAYS = {name: series["overlay"] for name, series in SERIES.items() if series.get("overlay")}
+OVERLAYS = {name: series.overlay for name, series in SERIES.items() if series.overlay}
 
 
 rule report:
@@ -117,9 +114,9 @@ rule your_copy:
         settings=lambda _: {
             "series": SERIES,
             "allowances": {
-                entry["reference"]: entry["allowance"]
-                for entry in config["comparisons"].values()
-                if "allowance" in entry
+                one.reference.name: [one.allowed("x"), one.allowed("y")]
+                for one in COMPARISONS.values()
+                if one.allowance
             },
             "significance": config["significance"],
         },

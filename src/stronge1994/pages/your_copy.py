@@ -34,11 +34,11 @@ REFUSED = {
 def page(
     paths: Sequence[str],
     curves: Sequence[str],
-    series: Mapping[str, Any],
-    allowances: Mapping[str, Mapping[str, float]],
+    series: Mapping[str, Series],
+    allowances: Mapping[str, list[float]],
     significance: float,
 ) -> str:
-    """The page as text, from its sources, tables of curves, and series `{source/name: entry}`.
+    """The page as text, from its sources, tables of curves, and all series.
 
     `allowances` are those of comparisons by their series. Without the curve that a setting of the
     run takes away, the page has the others.
@@ -52,7 +52,7 @@ def page(
     read = {Path(path).stem: tables.read(path) for path in curves}
     panels = {name: _panel(panel, read[panel["figure"]], series) for name, panel in stated.items()}
     for one in (one for panel in panels.values() for one in panel["series"]):
-        one["allowance"] = [allowances.get(one["id"], {}).get(axis, 0.0) for axis in "xy"]
+        one["allowance"] = allowances.get(one["id"], [0.0, 0.0])
     folder = next(Path(path).parent for path in paths if path.endswith("your_copy.html"))
     limits = noncentrality(significance)
     told = {"version": planarimpact.__version__, "refused": REFUSED}
@@ -82,27 +82,25 @@ def noncentrality(significance: float) -> dict[str, Any]:
     }
 
 
-def _panel(panel: Panel, table: Table, series: Mapping[str, Any]) -> Panel:
+def _panel(panel: Panel, table: Table, series: Mapping[str, Series]) -> Panel:
     """A panel with the points of its curves, and the series that can be read in it."""
     markers = panel.get("points", [])
     curves = [own for stated in panel["curves"] for own in _curves(stated, panel, table)]
     named = [*markers, *(one["series"] for one in curves if "series" in one)]
-    found = [_readable(full, series[full], full not in markers) for full in named]
+    found = [_readable(series[full], full not in markers) for full in named]
     return panel | {"curves": curves, "series": found}
 
 
-def _readable(full: str, entry: Mapping[str, Any], line: bool) -> dict[str, Any]:
+def _readable(own: Series, line: bool) -> dict[str, Any]:
     """A series that the page can read: its columns, and whether it is a line or markers."""
-    own = Series(**entry)
-    columns = [own.x.name, own.ordinates[0].name]
-    name = f"{entry['figure']}{'' if own.path is None else ' (at hand)'}"
+    axes = own.x, own.ordinates[0]
     return {
-        "id": full,
-        "name": name,
+        "id": own.name,
+        "name": f"{own.figure}{'' if own.path is None else ' (at hand)'}",
         "line": line,
-        "columns": columns,
-        "ranges": [list(own.x.range), list(own.ordinates[0].range)],
-        "open": list(entry.get("open", [])),
+        "columns": [axis.name for axis in axes],
+        "ranges": [list(axis.range) for axis in axes],
+        "open": list(own.open),
     }
 
 
