@@ -16,11 +16,6 @@ Entry: TypeAlias = dict[str, Any]  # a comparison of the config
 
 FILE = "workflow/config.yaml"  # what a user edits
 SHARED = ("mass_ratio", "stiffness_ratio")  # groups that figures share
-# Reason for the tolerance of the comparison of a scene.
-OF_SCENES = (
-    "every row against a second code of the continuum of its loss, with the mechanics of rigid "
-    "bodies in 50 digits; sigma is the accuracy of that and the tolerance of the scene"
-)
 
 
 def load(files: Iterable[str | Path], arguments: Iterable[str] = ()) -> Config:
@@ -48,7 +43,7 @@ def complete(config: Config) -> Config:
     every = figures.stated().items()
     stated = {
         "figures": {name: figures.values(figure["settings"]) for name, figure in every},
-        "comparisons": figures.comparisons() | _of_scenes(config.get("scenes")),
+        "comparisons": figures.comparisons(),
     }
     return overridden(stated, config)
 
@@ -64,24 +59,9 @@ def overridden(stated: Config, config: Config) -> Config:
     return stated | both
 
 
-def _of_scenes(scenes: Any) -> dict[str, Entry]:
-    """A comparison of every scene that names a reference."""
-    named = scenes.items() if isinstance(scenes, dict) else ()
-    return {
-        f"scene-{name.replace('_', '-')}": {
-            "figure": f"{SCENE}{name}",
-            "reference": scene["reference"],
-            "metric": "vertices",
-            "reason": OF_SCENES,
-        }
-        for name, scene in named
-        if isinstance(scene, dict) and "reference" in scene
-    }
-
-
 def schema() -> dict[str, Any]:
     """JSON schema of the whole config, with the settings of each figure."""
-    whole = figures.config_schema()
+    whole = figures.schema("config")
     every = {name: figures.schema_of(own["settings"]) for name, own in figures.stated().items()}
     own = {"type": "object", "additionalProperties": False, "properties": every}
     return whole | {"properties": whole["properties"] | {"figures": own}}
