@@ -96,16 +96,6 @@ def of_folder(without):
     ]
 
 
-def of_figure(part):
-    """A part of `settings.of_figure`: settings of curves and drawing; and files of data/, `tables` to solve and `series` to draw."""
-    return lambda wildcards: FIGURES[wildcards.figure][part]
-
-
-def of_judged(part):
-    """A part of `settings.of_judgement`: settings, the `table` of curves or of a scene, and `series` of data/ to compare."""
-    return lambda wildcards: JUDGED[wildcards.judged][part]
-
-
 def made(names):
     """Tables and pictures of figures and scenes, and all on the way to them.
 

@@ -8,7 +8,7 @@ rule draw:
         code=DRAWING,
         own=of_folder(without="curves.py"),
         curves="results/curves/{figure}.csv",
-        series=of_figure("series"),
+        series=lambda wildcards: FIGURES[wildcards.figure]["series"],
     output:
         svg=report("figures/{figure}.svg", **IN_REPORT),
         png="figures/{figure}.png",
@@ -20,7 +20,7 @@ rule draw:
     conda:
         "../envs/planarimpact.yaml"
     params:
-        settings=of_figure("drawing"),
+        settings=lambda wildcards: FIGURES[wildcards.figure]["drawing"],
     script:
         "../scripts/job.py"
 

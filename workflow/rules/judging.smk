@@ -2,8 +2,8 @@ rule judge:
     """Compare a figure's curves or a scene with reference data. A row that fails is no error here."""
     input:
         code=JUDGING,
-        table=of_judged("table"),
-        series=of_judged("series"),
+        table=lambda wildcards: JUDGED[wildcards.judged]["table"],
+        series=lambda wildcards: JUDGED[wildcards.judged]["series"],
     output:
         verdicts="results/verdicts/{judged}.csv",
         residuals="results/residuals/{judged}.csv",
@@ -13,7 +13,7 @@ rule judge:
     conda:
         "../envs/planarimpact.yaml"
     params:
-        settings=of_judged("settings"),
+        settings=lambda wildcards: JUDGED[wildcards.judged]["settings"],
     script:
         "../scripts/job.py"
 

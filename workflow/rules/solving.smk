@@ -3,7 +3,7 @@ rule curves:
     input:
         code=SOLVING,
         own=of_folder(without="drawing.py"),
-        tables=of_figure("tables"),
+        tables=lambda wildcards: FIGURES[wildcards.figure]["tables"],
     output:
         "results/curves/{figure}.csv",
     log:
@@ -16,7 +16,7 @@ rule curves:
         runtime=30,  # minutes
         timed=lambda wildcards: int(wildcards.figure in TIMED),  # the profile allows one such job at once
     params:
-        settings=of_figure("curves"),
+        settings=lambda wildcards: FIGURES[wildcards.figure]["curves"],
     script:
         "../scripts/job.py"
 

@@ -47,7 +47,8 @@ def of_figure(
 ) -> dict[str, Any]:
     """What the rules of one figure need: settings of its curves and of its drawing, and files.
 
-    Over a figure are drawn the series and facts that it compares, and those under `draws`.
+    Of data/ these are `tables` to solve and `series` to draw: over a figure are drawn the series
+    and facts that it compares, and those under `draws`.
     """
     stated, own = figures.stated()[figure], physics(config, inventory, figure)
     nodes = _nodes(config, inventory, comparisons, figure)
@@ -63,7 +64,7 @@ def of_figure(
 
 
 def of_judgement(config: Config, comparisons: Comparisons, name: str) -> dict[str, Any]:
-    """What the rule that judges a figure or a scene needs."""
+    """What the rule that judges a figure or a scene needs: settings, the table, and `series`."""
     own = of(comparisons, name)
     return {
         "settings": {
