@@ -2,7 +2,7 @@
 IN_REPORT = {"category": "Figures", "labels": {"figure": "{figure}"}, "caption": "../report/figure.rst"}
 
 
-rule draw:
+use rule job as draw with:
     """Draw one figure from its curves; never solves."""
     input:
         code=DRAWING,
@@ -17,12 +17,8 @@ rule draw:
     wildcard_constraints:
         figure="|".join(figure for figure in FIGURES if figure not in SLIDES) or "none",
     priority: priority
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         settings=lambda wildcards: FIGURES[wildcards.figure]["drawing"],
-    script:
-        "../scripts/job.py"
 
 
 use rule draw as draw_with_slide with:

@@ -1,4 +1,4 @@
-rule judge:
+use rule job as judge with:
     """Compare a figure's curves or a scene with reference data. A row that fails is no error here."""
     input:
         code=JUDGING,
@@ -10,15 +10,11 @@ rule judge:
     log:
         "results/logs/judge_{judged}.log",
     priority: priority
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         settings=lambda wildcards: JUDGED[wildcards.judged]["settings"],
-    script:
-        "../scripts/job.py"
 
 
-rule verdicts:
+use rule job as verdicts with:
     """All rows of the comparisons as one table, and for readers by figure. Never fails."""
     input:
         code=JUDGING,
@@ -28,16 +24,12 @@ rule verdicts:
         by_figure="results/verdicts.txt",
     log:
         "results/logs/verdicts.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         shows=lambda _: SHOWS,
         grades=GRADES,
-    script:
-        "../scripts/job.py"
 
 
-rule check_ledger:
+use rule job as check_ledger with:
     """Check every entry of the paper's ledger against the paper's model, solved to rounding. Never fails."""
     input:
         code=[*SOLVING, *JUDGING],
@@ -47,13 +39,9 @@ rule check_ledger:
     log:
         "results/logs/ledger.log",
     priority: 1  # as it is long
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/job.py"
 
 
-rule accept:
+use rule job as accept with:
     """Write what a run has found to data/accepted/verdicts.csv: look at git diff, and then run again.
 
     It is no output, as the gate reads it. What FAILS, or is of other settings, is refused.
@@ -64,13 +52,9 @@ rule accept:
         ledger=rules.check_ledger.output[0],
     log:
         "results/logs/accept.log",
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/job.py"
 
 
-rule gate:
+use rule job as gate with:
     """Pass, or fail and say which rows are not as accepted. It waits for all that a run makes."""
     input:
         code=JUDGING,
@@ -82,15 +66,11 @@ rule gate:
         "results/gate.txt",
     log:
         "results/logs/gate.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         rows=rows_of(JUDGED),
         entries=list(GRADES),
         shows=lambda _: SHOWS,
         grades=GRADES,
-    script:
-        "../scripts/job.py"
 
 
 use rule gate as gate_of_target with:

@@ -6,7 +6,7 @@ SERIES = {name: reference_data.reference(SOURCES, name) for name in NAMED}
 OVERLAYS = {name: series.overlay for name, series in SERIES.items() if series.overlay}
 
 
-rule report:
+use rule job as report with:
     """The run as pages: the report, its sources and settings, the ledger of the paper."""
     input:
         code=[*SOLVER, *WRITING],
@@ -27,8 +27,6 @@ rule report:
         which_model=report("results/which_model.csv", category="Tables", caption="../report/which_model.rst"),
     log:
         "results/logs/report.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         # A function, as Snakemake takes braces in a text for a wildcard: those of formulas.
         settings=lambda _: {
@@ -41,8 +39,6 @@ rule report:
             "rows": rows_of(JUDGED),
             "grades": GRADES,
         },
-    script:
-        "../scripts/job.py"
 
 
 # What a lecture, or a check of its texts, reads.
@@ -52,7 +48,7 @@ READ_BY = {
 }
 
 
-rule lecture:
+use rule job as lecture with:
     """Run one lecture, with the checks of what its texts state, and write its pages."""
     input:
         code=[*SOLVER, *WRITING],
@@ -71,13 +67,9 @@ rule lecture:
     log:
         "results/logs/lecture_{notebook}.log",
     priority: 1  # as it is long
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/job.py"
 
 
-rule explorer:
+use rule job as explorer with:
     """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
         code=[*SOLVER, *WRITING],
@@ -89,15 +81,11 @@ rule explorer:
         start="figures/index.html",
     log:
         "results/logs/explorer.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         settings=lambda _: settings.of_explorer(config),
-    script:
-        "../scripts/job.py"
 
 
-rule your_copy:
+use rule job as your_copy with:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
         code=WRITING,
@@ -108,8 +96,6 @@ rule your_copy:
         page="figures/your_copy.html",
     log:
         "results/logs/your_copy.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         settings=lambda _: {
             "series": SERIES,
@@ -120,11 +106,9 @@ rule your_copy:
             },
             "significance": config["significance"],
         },
-    script:
-        "../scripts/job.py"
 
 
-rule wheel:
+use rule job as wheel with:
     """The solver as one file, which lies beside the notebooks of students, who install it."""
     input:
         code=JOB,
@@ -134,13 +118,9 @@ rule wheel:
         f"figures/{WHEEL}",
     log:
         "results/logs/wheel.log",
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/job.py"
 
 
-rule lite:
+use rule job as lite with:
     """A web site on which the notebooks of students run in the browser. No part of `all`: it needs JupyterLite."""
     input:
         code=JOB,
@@ -155,12 +135,8 @@ rule lite:
         directory("results/lite"),
     log:
         "results/logs/lite.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         pyodide_url=config["lite"]["pyodide_url"],
-    script:
-        "../scripts/job.py"
 
 
 PAGES = [
