@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
 from stronge1994.judging.comparisons import Comparison
-from stronge1994.names import home
+from stronge1994.names import home, is_of_paper
 from stronge1994.reference_data import Faults, SourceError
 
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
@@ -23,12 +23,12 @@ KEYS = {own.name for own in fields(Comparison)}  # of a comparison
 
 @functools.cache
 def stated() -> dict[str, Stated]:
-    """Every figure.yaml, checked; the figures of the paper first, by number."""
+    """Every figure.yaml, checked; the figures of the paper first."""
     # `shared` is code for several figures. A folder that git has emptied may still hold bytecode.
     folders = [*PACKAGE.glob("figures/*"), *PACKAGE.glob("studies/*")]
     folders = [path for path in folders if any(path.glob("*.*"))]
     contents, faults = {}, Faults()
-    for folder in sorted(folders, key=lambda folder: place(folder.name)):
+    for folder in sorted(folders, key=lambda folder: (not is_of_paper(folder.name), folder.name)):
         if folder.name not in ("shared", "__pycache__"):
             with faults:
                 contents[folder.name] = _read(folder)
@@ -55,12 +55,6 @@ def _read(folder: Path) -> Stated:
     settings = values(content["settings"])
     reference_data.refuse_invalid(settings, own | {"$defs": kinds}, f"{path}: settings")
     return content
-
-
-def place(name: str) -> tuple[bool, int, str]:
-    """Place of a figure among others: those of the paper first, by number."""
-    number = re.fullmatch(r"fig(\d+)", name)
-    return not number, int(number[1]) if number else 0, name
 
 
 def with_trait(trait: str) -> list[str]:
