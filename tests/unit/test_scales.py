@@ -8,6 +8,7 @@ from stronge1994 import tables, verdict_table
 from stronge1994.judging import compare, scales
 from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.metrics import measure
+from stronge1994.reference_data import Series
 
 ANGLE = np.linspace(0.0, 80.0, 81)
 SHAPES = {"normal": 90.0 * np.cos(np.radians(ANGLE)), "friction": 15 - ((ANGLE - 30) / 15) ** 2}
@@ -27,23 +28,20 @@ def judged(tmp_path):
     axes |= {"y": axis | {"column": "peak_force", "unit": "N"}}
 
     def rows(points, of_other_settings=(), **allowance):
-        entries = {
-            force: {"metric": "distance", "scale": "force", "reason": "so", **allowance}
-            | {"curve": {"variant": force}, "reference": f"they/{force}"}
-            for force in SHAPES
-        }
-        ratio = {"metric": "ratio", "scale": "force", "reason": "so"}
-        entries["ratio"] = ratio | {"reference": "they/friction"}
-        references = {f"they/{force}": {"kind": "awaited", **axes} for force in SHAPES}
-        for force, (x, y) in points.items():
-            file = tmp_path / f"{force}.csv"
-            pd.DataFrame({"angle [deg]": x, "peak_force [N]": y}).to_csv(file, index=False)
-            references[f"they/{force}"] |= {"kind": "digitised", "path": str(file)}
-        every = {force: Comparison.of(force, entries[force], references) for force in entries}
-        for force in of_other_settings:
-            references[f"they/{force}"] |= {"settings": {"speed": 1.0}}
-        run = {"speed": 2.0}
-        found = compare("fig0", str(path), entries, references, 0.001, run)
+        every = {}
+        for force in SHAPES:
+            kind, file = "awaited", tmp_path / f"{force}.csv"
+            if force in points:
+                x, y = points[force]
+                pd.DataFrame({"angle [deg]": x, "peak_force [N]": y}).to_csv(file, index=False)
+                kind = "digitised"
+            settings = {"speed": 1.0} if force in of_other_settings else {}
+            known = Series(kind, **axes, path=str(file), name=f"they/{force}", settings=settings)
+            scaled = {"scale": "force", "reference": known}
+            own = {"curve": {"variant": force}, **allowance}
+            every[force] = Comparison(force, "distance", "so", **scaled, **own)
+        every["ratio"] = Comparison("ratio", "ratio", "so", **scaled)  # of the last, friction
+        found = compare("fig0", str(path), every.values(), 0.001, {"speed": 2.0})
         return {row["comparison"]: row for row in found}, every, table
 
     return rows

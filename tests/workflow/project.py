@@ -39,12 +39,8 @@ def ledger():
 @functools.cache
 def awaited():
     """Names of the comparisons with a series of which there are no points yet."""
-
-    def waits(full):
-        return reference_data.reference(sources(), full).get("kind") == "awaited"
-
-    stated = config()["comparisons"].items()
-    return [name for name, entry in stated if "reference" in entry and waits(entry["reference"])]
+    every = checked({}).items()
+    return [name for name, one in every if getattr(one.reference, "kind", "") == "awaited"]
 
 
 def head(**other):
@@ -67,10 +63,10 @@ def head(**other):
 
 
 def checked(change, data=None, folder=ROOT):
-    """Check a change of the config as a start of Snakemake does, with other data if need be."""
+    """Comparisons of a changed config, as a start of Snakemake checks them; with other data."""
     changed = configuration.overridden(config(), change)
     with contextlib.chdir(folder):
-        configuration.check_config(changed, data or sources(), ledger())
+        return configuration.comparisons(changed, data or sources(), ledger())
 
 
 class Project:

@@ -16,7 +16,7 @@ from stronge1994 import settings as figure_settings
 from stronge1994.figures.fig8 import curves as fig8
 from stronge1994.judging import compare
 from stronge1994.reference_data import Series
-from tests.workflow.project import ROOT, awaited, config, head
+from tests.workflow.project import ROOT, awaited, checked, config, head
 
 CONFIG = config()
 RUBBER, LEWIS = "johnson1983/rubber_sphere", "lewis_rogers1988"
@@ -74,12 +74,10 @@ def judged(inventory, curves, tmp_path):
             said = {"sigma_x": known.x.sigma, "sigma_y": known.y.sigma} | PICTURE.get(name, {})
             (tmp_path / f"{name}.csv").write_text(head(**said) + table)
         found = inventory | {source: reference_data.load(tmp_path / source)}
-        references = figure_settings.references(CONFIG, found, figure)
-        path = curves / f"{figure}.csv"
-        entries = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]] for name in points}
-        if set(points) == {NORMAL, FRICTION}:
-            entries["ratio"] = CONFIG["comparisons"]["fig8-measured-ratio"]
-        every = compare(figure, path, entries, references, CONFIG["significance"], {})
+        names = [AWAITED[name] for name in points]
+        names += ["fig8-measured-ratio"] if set(points) == {NORMAL, FRICTION} else []
+        own = list(map(checked({}, found).get, names))
+        every = compare(figure, curves / f"{figure}.csv", own, CONFIG["significance"], {})
         return dict(zip([*points, "ratio"], every, strict=False))
 
     return rows

@@ -22,7 +22,7 @@ from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.names import home, is_of_paper
 from stronge1994.settings import figures
-from tests.workflow.project import config, sources
+from tests.workflow.project import checked, config, sources
 
 PAPER = [figure for figure in figures.stated() if is_of_paper(figure)]
 # Curves of the paper's figures that are only compared, as patterns; and one that is an area.
@@ -39,7 +39,7 @@ def given(first_run):
 
     def of(figure):
         project, _ = first_run
-        settings = figure_settings.of_figure(config(), sources(), figure)["drawing"]
+        settings = figure_settings.of_figure(config(), sources(), checked({}), figure)["drawing"]
         points = drawings.references(settings["overlays"])
         module = importlib.import_module(f"stronge1994.{home(figure)}.{figure}.drawing")
         curves = tables.read(project / f"results/curves/{figure}.csv")

@@ -14,11 +14,10 @@ from PIL import Image
 
 from planarimpact import continuum, lumped, rigid
 from stronge1994 import goodness, reference_data, tables
-from stronge1994 import settings as figure_settings
 from stronge1994.judging import compare, distances
 from stronge1994.pages import your_copy
 from tests.workflow import prints
-from tests.workflow.project import ROOT, config, sources
+from tests.workflow.project import ROOT, checked, config, sources
 
 RUBBER, LOSSY = "johnson1983/rubber_sphere", "stronge1994/fig6_e_0.5"
 LIMITS = {"fig5": ((0, 8), (-3, 1)), "fig6": ((0, 8), (-3, 3)), "fig8a": ((0, 90), (0, 80))}
@@ -335,13 +334,11 @@ def judged_by_a_run(path, first_run):
 
 def rows_of_a_run(folder, begin, first_run):
     """Rows of a run for a folder of data/, by comparison, of those whose names begin so."""
-    stated = config()["comparisons"].items()
-    entries = {name: entry for name, entry in stated if name.startswith(begin)}
-    found = sources() | {folder.name: reference_data.load(folder)}
+    every = checked({}, sources() | {folder.name: reference_data.load(folder)})
+    own = [one for name, one in every.items() if name.startswith(begin)]
     figure = begin.split("-")[0]
-    references = figure_settings.references(config(), found, figure)
     curves = first_run[0] / f"results/curves/{figure}.csv"
-    rows = compare(figure, curves, entries, references, config()["significance"], {})
+    rows = compare(figure, curves, own, config()["significance"], {})
     return {row["comparison"]: row for row in rows}
 
 
