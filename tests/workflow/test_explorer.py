@@ -140,13 +140,6 @@ def test_a_page_with_a_wrong_solver_says_so(tab, explorer, tmp_path):
         assert len(texts(tab, "main > [role=alert]")) == warnings
 
 
-def test_problems_of_a_page_are_noticed(tab):
-    tab.problems.clear()
-    tab.open("data:text/html,<script>console.error('oh'); missing()</script>")
-    assert any("oh" in words for words in tab.problems)
-    assert any("missing is not defined" in words for words in tab.problems)
-
-
 # ---- what a person does
 
 
