@@ -14,9 +14,8 @@ from PIL import Image
 
 from planarimpact import continuum, lumped, rigid
 from stronge1994 import reference_data, tables
-from stronge1994 import settings as figure_settings
-from stronge1994.judging import compare, distances
-from tests.workflow import prints
+from stronge1994.judging import distances
+from tests.workflow import prints, project
 from tests.workflow.project import ROOT, config, sources
 
 RUBBER, LOSSY = "johnson1983/rubber_sphere", "stronge1994/fig6_e_0.5"
@@ -259,21 +258,9 @@ def judged_by_a_run(path, reader, first_run):
     ((name, _),) = [
         one for one in every if (one[1].get("reference"), one[1]["metric"]) == (series, "distance")
     ]
-    row = rows_of_a_run(path.parent, name, first_run)[name]
+    row = project.rows_of_a_run(path.parent, name, first_run[0])[name]
     assert f"{row['would fail'].capitalize()} than ours" in reader.text("#sigmas")
     return row
-
-
-def rows_of_a_run(folder, begin, first_run):
-    """Rows of a run for a folder of data/, by comparison, of those whose names begin so."""
-    stated = config()["comparisons"].items()
-    entries = {name: entry for name, entry in stated if name.startswith(begin)}
-    found = sources() | {folder.name: reference_data.load(folder)}
-    figure = begin.split("-")[0]
-    references = figure_settings.references(config(), found, figure)
-    curves = first_run[0] / f"results/curves/{figure}.csv"
-    rows = compare(figure, curves, entries, references, config()["significance"], {})
-    return {row["comparison"]: row for row in rows}
 
 
 @pytest.mark.parametrize(
@@ -356,7 +343,7 @@ def test_friction_that_is_too_high_fails_beside_its_normal_force(
     path = saved(reader, "stronge1994/fig8_friction", tmp_path)
     if scale == 1:
         judged_by_a_run(path, reader, first_run)
-    rows = rows_of_a_run(path.parent, "fig8-printed-curve-", first_run)
+    rows = project.rows_of_a_run(path.parent, "fig8-printed-curve-", first_run[0])
     found = {name.removeprefix("fig8-printed-curve-"): row["verdict"] for name, row in rows.items()}
     assert found == {"normal": "agrees", "friction": "agrees", "ratio": wanted}
 
