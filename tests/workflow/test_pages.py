@@ -283,10 +283,12 @@ FAULTY = """<!DOCTYPE html><html lang="en"><head><title>A page</title>
 :root { color-scheme: light dark; background: light-dark(#fff, #111); }
 .faint { color: light-dark(#222, #333); }
 </style></head><body><main><h1>Words</h1><details><button></button></details>
-<p class="faint">Unseen in the dark.</p><p style="width: 500px">Long.</p></main></body></html>"""
+<p class="faint">Unseen in the dark.</p><p style="width: 500px">Long.</p></main>
+<script>console.error('oh'); missing()</script></body></html>"""
 
 
-def test_faults_of_a_page_are_found(look, tmp_path):
+def test_faults_of_a_page_are_found(look, tab, tmp_path):
+    tab.problems.clear()
     (tmp_path / "bad.html").write_text(FAULTY)
     faults = look(tmp_path / "bad.html")
     assert {window: {f.partition(":")[0] for f in faults[window]} for window in faults} == {
@@ -294,3 +296,5 @@ def test_faults_of_a_page_are_found(look, tmp_path):
         "dark": {COLOURS},
         "phone": {"too wide"},
     }
+    assert [name for name in ("oh", "missing is not") if name not in str(tab.problems)] == []
+    tab.problems.clear()
