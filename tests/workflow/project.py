@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from stronge1994 import paper, reference_data
+from stronge1994 import judging, paper, reference_data, settings
 from stronge1994.settings import config as configuration
 
 ROOT = Path(__file__).parents[2]
@@ -67,6 +67,16 @@ def checked(change, data=None, folder=ROOT):
     changed = configuration.overridden(config(), change)
     with contextlib.chdir(folder):
         return configuration.comparisons(changed, data or sources(), ledger())
+
+
+def rows_of_a_run(folder, begin, project):
+    """What a finished run would say with this folder of data/: rows whose names begin so."""
+    every = checked({}, sources() | {folder.name: reference_data.load(folder)})
+    own = [one for name, one in every.items() if name.startswith(begin)]
+    figure = begin.split("-")[0]
+    curves = project / f"results/curves/{figure}.csv"
+    rows = judging.compare(figure, curves, own, config()["significance"], {})
+    return {row["comparison"]: row for row in rows}
 
 
 class Project:
