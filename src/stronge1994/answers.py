@@ -75,7 +75,7 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(
             "What makes a run fail?",
-            ["A check of the solver outside its tolerance, or a result nobody has accepted"],
+            ["A check of the solver outside its tolerance, or a result that is not as accepted"],
         ),
     ]
 

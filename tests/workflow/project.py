@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from stronge1994 import judging, paper, reference_data, settings
+from stronge1994 import judging, paper, reference_data
 from stronge1994.settings import config as configuration
 
 ROOT = Path(__file__).parents[2]

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from stronge1994 import answers, tables, verdict_table, versions
+from stronge1994 import answers, figure_table, tables, verdict_table, versions
 from stronge1994.figures.shared.drawing import residuals as draw_residuals
 from stronge1994.formulas import mathematical, number
 from stronge1994.pages import report as write_report

@@ -81,11 +81,9 @@ PACKAGE = files("src/planarimpact/**/*")
 SOLVER = [*PACKAGE, "environment.txt"]  # another version of a package solves again
 SOLVING = [*SOLVER, *COMMON, *files("src/stronge1994/printed/*", "src/stronge1994/figures/shared/curves/*")]
 DRAWING = [*COMMON, *files("src/stronge1994/figures/shared/drawing/*")]
-JUDGING = [
-    *COMMON,
-    *files("src/stronge1994/judging/*", "src/stronge1994/paper/*", "src/stronge1994/printed/*"),
-]
-WRITING = [*DRAWING, *JUDGING, *files("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
+JUDGING = [*COMMON, *files("src/stronge1994/judging/*")]
+PAPER_LEDGER = files("src/stronge1994/paper/*", "src/stronge1994/printed/*")
+WRITING = [*DRAWING, *JUDGING, *PAPER_LEDGER, *files("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
 WRITING += files("src/stronge1994/explorer/*")
 
 

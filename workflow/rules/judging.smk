@@ -32,7 +32,7 @@ use rule job as verdicts with:
 use rule job as check_ledger with:
     """Check every entry of the paper's ledger against the paper's model, solved to rounding. Never fails."""
     input:
-        code=[*SOLVING, *JUDGING],
+        code=[*SOLVING, *JUDGING, *PAPER_LEDGER],
         facts="data/stronge1994/source.yaml",  # to which entries refer
     output:
         report("results/ledger.csv", category="Tables", caption="../report/ledger.rst"),

@@ -70,7 +70,8 @@ def gate():
     ledger = tables.read_rows(given.ledger, ledger_table.COLUMNS) if asked.entries else []
     known = accepted.read(given.accepted)
     faults = gate.faults(rows, ledger, asked.rows, asked.entries, known)
-    told = gate.summary(rows, ledger, faults, asked.shows, asked.grades)
+    new = accepted.new(rows, known)
+    told = gate.summary(rows, ledger, faults, asked.shows, asked.grades, new)
     print(told)
     if faults or gate.unmade(rows):
         sys.exit(1)

@@ -230,6 +230,7 @@ def write(
         "significance": config["significance"],
         "doubt": DOUBT * config["significance"],
         "commit": versions.commit("."),
+        "new": accepted.new(verdicts, known),
         "faults": gate.faults(verdicts, ledger, rows, grades, known),
     }
     pages = {
