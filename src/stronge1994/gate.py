@@ -80,9 +80,9 @@ def summary(
 ) -> str:
     """What a run says at its end: what it has found, and whether it has passed.
 
-    `wrong` are its `faults`, and `new` the comparisons that `accepted.new` names; `shows` says what each figure shows, `grades` are those of the
-    ledger's entries. A run without a ledger, or with it alone, is one of a part, of Fig. 6 for
-    example.
+    `wrong` are its `faults`, and `new` the comparisons that `accepted.new` names; `shows` says what
+    each figure shows, `grades` are those of the ledger's entries. A run without a ledger, or with
+    it alone, is one of a part, of Fig. 6 for example.
     """
     figures, others = {row["figure"] for row in verdicts}, unmade(verdicts)
     whole, parts = verdicts and ledger, []
