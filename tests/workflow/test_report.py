@@ -277,7 +277,7 @@ lay your copy under it differs Eq. 25, 0.03 μv2(0); changes a result
 agrees peak at 7°, model 5
 FAILS Maw 1976: rebound, 4 of 16 points, rms 0.02 μv2(0)
 agrees Maw 1976: rebound, 12 of 16 points, rms 0.04 μv2(0) not compared Cross 2014; points awaited
-| e = 0.8, plastic loss error up to 0.3 to 0.1 m, 0.05, 3 µs
+| e = 0.8, plastic loss error up to 0.3, down to 0.1 m, 0.05, 3 µs
 | by 0.5 µv2(0) (e = 0.8, plastic; 0.6 if
 | the wrong loss is an error of up to 0.4 µ"""
 ANSWER = {"e": 0.8, "loss": "plastic", "batch": 10, "model": "m"}
