@@ -88,14 +88,15 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
 
 
 def new(verdicts: Sequence[Row], accepted: Sequence[Row]) -> list[str]:
-    """Names of comparisons that do not fail a run, and that nobody has accepted yet.
+    """Names of comparisons that are made, fail no run, and that nobody has accepted yet.
 
     >>> new([{"comparison": "a", "verdict": "agrees"}], [])
     ['a']
     """
     known = {row["name"] for row in accepted if row["why"] != Why.AWAITED}
-    settled = [row for row in verdicts if row["verdict"] not in (Verdict.FAILS, Verdict.DIFFERS)]
-    return [row["comparison"] for row in settled if row["comparison"] not in known]
+    others = Verdict.FAILS, Verdict.DIFFERS, Verdict.NOT_COMPARED
+    made = [row["comparison"] for row in verdicts if row["verdict"] not in others]
+    return [name for name in made if name not in known]
 
 
 def _changed(was: Row, now: Row) -> Iterator[str]:
