@@ -85,7 +85,7 @@ def test_a_history_is_that_of_its_rebound(groups, x, loss):
     for event in contact.events:  # each has the state of a vertex at its time
         state = np.array(event[1:], float)[:, None]
         assert (columns == state).all(axis=0).any(), event
-    mirrored = lumped.history(-x, *groups, samples=2000, loss=loss)
+    mirrored = lumped.history(-x, *groups, samples=4000, loss=loss)
     for name in ("friction_force", "velocity", "spring"):
         np.testing.assert_array_equal(getattr(mirrored, name), -getattr(contact, name))
     np.testing.assert_array_equal(mirrored.normal, contact.normal)
