@@ -88,7 +88,13 @@ def _loss(restitution: Array) -> Array:
 
 @cache
 def series() -> Chebyshev:
-    """Restitution against the root of the relaxation time, from 0 to the root of `SLOWEST`."""
+    """Restitution against the root of the relaxation time, from 0 to the root of `SLOWEST`.
+
+    Examples
+    --------
+    >>> float(series()(0.5**0.5).round(5))
+    0.46894
+    """
 
     def restitution_at(root: Array) -> Array:
         return -_both_halves(root * root)[1].last[1]
