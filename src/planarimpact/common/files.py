@@ -29,7 +29,12 @@ def written(path: str | Path) -> Iterator[Path]:
         raise InputError(f"{path}: it is there already, and no regular file")
     if not target.parent.is_dir():
         raise InputError(f"{path}: there is no folder {target.parent}")
-    with tempfile.TemporaryDirectory(prefix=".partial-", dir=target.parent) as folder:
+    try:
+        beside = tempfile.TemporaryDirectory(prefix=".partial-", dir=target.parent)
+    except OSError as error:
+        error.filename = str(target.parent)  # the caller knows nothing of a folder in it
+        raise
+    with beside as folder:
         partial = Path(folder) / target.name
         yield partial
         os.replace(partial, target)
