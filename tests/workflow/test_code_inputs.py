@@ -58,7 +58,8 @@ def inputs():
 
 
 def test_each_module_that_a_job_imports_is_an_input_of_it(inputs):
-    assert {job[0] for job in inputs} == set(re.findall(r"^def (\w+)", JOB.read_text(), re.M))
+    functions = set(re.findall(r"^def (\w+)", JOB.read_text(), re.M))
+    assert {job[0] for job in inputs} == functions - {"job"}
     result = subprocess.run(
         [sys.executable, "-c", RECORD],
         input=json.dumps(list(inputs)),

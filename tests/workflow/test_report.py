@@ -217,6 +217,20 @@ def test_each_verdict_has_the_numbers_and_the_reason_of_its_row(pages, rows_of):
         assert [one for one in told if flat(one) not in shown] == [], row["comparison"]
 
 
+def test_entries_that_no_longer_hold_and_what_nobody_has_accepted_are_named(rows_of):
+    nothing = {"table": [], "figures": {}, "cases": [], "commit": "", "significance": 0, "doubt": 0}
+    values = nothing | {"captions": dict.fromkeys(write_report.SECTIONS, ""), "new": []}
+    values |= {"verdicts": rows_of("verdicts"), "ledger": rows_of("ledger"), "faults": []}
+    new = Page(write_report.page(values | {"new": ["fig6-a", "fig6-b"]})).text
+    assert "PASSED Nobody has accepted fig6-a, fig6-b yet: new. Every other result is " in new
+    ledger = [
+        row | {"holds": "no" if row["entry"] == "eq-25" else "yes"} for row in rows_of("ledger")
+    ]
+    bad = write_report.page(values | {"ledger": ledger, "faults": ["no longer holds: eq-25: <oh>"]})
+    assert f"1 of {len(ledger)} verdicts on the paper no longer hold: Eq. 25 ." in Page(bad).text
+    assert "<li>no longer holds: eq-25: &lt;oh&gt;</li>" in bad
+
+
 def test_residuals_are_those_that_were_judged(first_run):
     folder = first_run[0] / "results"
     residuals = pd.concat(map(pd.read_csv, (folder / "residuals").glob("*.csv")))
