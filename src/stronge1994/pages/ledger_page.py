@@ -74,12 +74,7 @@ def linked_maths(entries: Collection[str], page: str = "") -> Callable[[str], Ma
 
 
 def by_cause(rows: Sequence[Row]) -> dict[str, list[Row]]:
-    """Wrong rows by the text of their cause, the gravest ones first.
-
-    >>> rows = [{"cause": "one", "because": grade, "grade": grade} for grade in reversed(GRADES)]
-    >>> list(by_cause(rows)) == list(GRADES)
-    True
-    """
+    """Wrong rows by the text of their cause, the gravest ones first."""
     order = list(GRADES)
     wrong = [row for row in rows if row.get("cause")]
     causes: dict[str, list[Row]] = {}
