@@ -220,6 +220,12 @@ def test_the_next_moment_shows_what_begins(show):
     assert "bounce 1, 1 %" in tab.evaluate(f"{element('time')}.ariaValueText")
 
 
+def test_there_is_no_table_below_four_radii_of_the_ball(show):
+    for table in (0.09, 0.11):
+        tab = show(f"angle=30&friction=0.4&restitution=1{SOLID}&radius=25&table={table}")
+        assert text(tab, "stage-table-word") == ("table" if table > 0.1 else "")
+
+
 # ---- first a question
 
 

@@ -274,6 +274,21 @@ def test_a_fold_at_the_end_of_a_lecture_is_closed(tmp_path):
     assert page.count("<details") == page.count("</details>") == 2
 
 
+def test_a_heading_of_its_own_or_a_higher_level_ends_a_fold():
+    for end, fold in (("Why", 1), ("#### Why", 1), ("### Why", 0), ("## Why", 0)):
+        assert structure.folds(counting("Three.", end).cells)[2:5] == [1, 1, fold], end
+
+
+def test_a_slide_without_a_heading_has_that_of_its_section(tmp_path):
+    book = counting()
+    for place in (0, 1, 4, 6):  # the fifth cell has no heading
+        book.cells[place].metadata["slideshow"] = {"slide_type": "slide"}
+    (tmp_path / "slides.ipynb").write_text(nbformat.writes(book), encoding="utf-8")
+    _, *slides = run(tmp_path / "slides.ipynb", tmp_path)["slides"].split('<section class="slide')
+    headings = [re.search(r"<h[12][^>]*>(.*?)</h", slide)[1] for slide in slides]
+    assert headings == ["Counting", "1. A question", "1. A question", "2. Next", "Now you"]
+
+
 def test_what_a_fold_says_is_in_a_notebook_of_its_own():
     book = student.notebook(counting(), FOLDER, "counting")
     cells = [cell.source for cell in book.cells if cell.id not in ("begin", "install", "tools")]

@@ -433,6 +433,11 @@ def test_the_magnifier_goes_out_of_the_way_and_nothing_moves_the_picture(opened)
         page.mouse.move((left + right) / 2, (top + bottom) / 2)
         moved = box("#loupe")
         assert moved[2] < left or moved[0] > right
+    page.mouse.move(*reader.place(4, -1))
+    left, top, *size = map(float, page.get_attribute("#loupe", "viewBox").split())
+    assert f"{size[0]:g} px across" in page.text_content("#with-width") and size[0] == size[1]
+    middle = left + size[0] / 2, top + size[1] / 2
+    assert middle == pytest.approx(reader.pixel(4, -1), abs=0.5)
     page.click("#close-loupe")
     page.mouse.move(*reader.place(4, -1))
     assert page.is_hidden("#close-up")
