@@ -246,11 +246,6 @@ def answered(book, folder, words):
     return {cell.id: cell.outputs for cell in code_of(book)}
 
 
-def test_a_fold_ends_at_a_heading_of_its_own_level_or_a_higher_one():
-    assert structure.folds(counting().cells)[:7] == [0, 0, 1, 1, 1, 1, 0]
-    assert structure.folds(counting("### Next").cells)[:4] == [0, 0, 1, 0]
-
-
 def test_a_page_folds_what_the_notebook_folds_and_has_a_box_for_each_prediction(tmp_path):
     last = tmp_path / "counting.ipynb"
     last.write_text(nbformat.writes(counting()), encoding="utf-8")
