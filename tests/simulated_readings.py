@@ -23,16 +23,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stronge1994 import settings as figure_settings
 from stronge1994 import tables
 from stronge1994.judging import compare
 from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.metrics import measure
 from stronge1994.judging.verdicts import judge
-from stronge1994.reference_data import reading
+from stronge1994.reference_data import Series, reading
 from stronge1994.verdict_table import Verdict
 from tests.workflow import node
-from tests.workflow.project import ROOT, config, sources
+from tests.workflow.project import ROOT, checked, config, sources
 
 RUN = ROOT  # where a run was made
 FOLDER = ROOT / "workflow/your_copy"
@@ -201,8 +200,8 @@ def verdict_of(answer, stated, curve, folder):
         return answer["refused"]
     file = Path(folder, "reading.csv")
     file.write_text(answer["text"].partition("\n")[2], encoding="utf-8")  # without `series`
-    entry = {"metric": "distance", "reason": "so", "reference": "a/b", "curve": {"model": "a"}}
-    own = Comparison.of("a", entry, {"a/b": reading.filled(stated, file)})
+    series = Series(**reading.filled(stated, file) | {"name": "a/b"})
+    own = Comparison("a", "distance", "so", reference=series, curve={"model": "a"})
     return judge(own, measure(own, curve), config()["significance"]).verdict
 
 
@@ -298,15 +297,15 @@ def judged(answers, folder):
         file.write_text(answer["text"], encoding="utf-8")
         known[source]["series"][own] = reading.filled(known[source]["series"][own], file)
         read.add(name)
-    for figure in sorted({config()["comparisons"][name]["figure"] for name in read}):
-        references = figure_settings.references(config(), known, figure)
-        entries = {
-            name: one
-            for name, one in config()["comparisons"].items()
-            if one["figure"] == figure and (name in read or one["metric"] == "ratio")
-        }
+    comparisons = checked({}, known)
+    for figure in sorted({comparisons[name].figure for name in read}):
+        own = [
+            one
+            for name, one in comparisons.items()
+            if one.figure == figure and (name in read or one.metric == "ratio")
+        ]
         path = str(RUN / f"results/curves/{figure}.csv")
-        rows = compare(figure, path, entries, references, config()["significance"], {})
+        rows = compare(figure, path, own, config()["significance"], {})
         found |= {row["comparison"]: row["verdict"] for row in rows}
     return found
 

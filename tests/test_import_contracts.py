@@ -65,13 +65,12 @@ REPLICATION = {
     "judging": "common pandas tables names formulas goodness reference_data verdict_table",
     "settings": "reference_data judging names",
     "versions": "planarimpact",
-    "logs": "",
     "accepted": "tables verdict_table ledger_table",
     "answers": "tables words figure_table verdict_table ledger_table",
     "gate": "accepted answers tables figure_table verdict_table ledger_table",
-    "pages": "common bodies export tables reference_data figures studies formulas goodness judging"
-    " paper ledger_table settings accepted answers gate versions names words figure_table"
-    " verdict_table jinja2 pandas matplotlib",
+    "pages": "planarimpact common bodies export tables reference_data figures studies formulas"
+    " goodness judging paper ledger_table settings accepted answers gate versions names words"
+    " figure_table verdict_table jinja2 pandas matplotlib",
 }
 # Figures and studies have one folder each, and in it files that solve and files that draw, or that
 # judge what is drawn.
@@ -92,9 +91,8 @@ PUBLIC_MODULES = {
     "models.laws",
     "models.timestep",
     "noncollinear.rigid",
-    "collision.facts",  # these four solve scenes
+    "collision.facts",  # these three solve scenes
     "collision.mechanics",
-    "collision.model_form",
     "collision.methods",
     "collision.presets",
     "spheres.table",  # which export writes in other languages, and which has one impact in floats

@@ -105,7 +105,8 @@ def _rebound(options: argparse.Namespace) -> None:
         x = bodies.incidence_from_angle(options.angle, options.friction)
     model, settings = models.get(options.model), dict(options.setting)
     model.refuse_others(settings)
-    result = models.rebound(model, x, **_groups(options), **settings)
+    groups = {name: getattr(options, name) for name in GROUPS}
+    result = models.rebound(model, x, **groups, **settings)
     fields = {**result._asdict(), "regime": Regime.names(result.regime)}
     columns = {
         f"{name} [{unit}]" if unit else name: fields[name]
@@ -118,11 +119,6 @@ def _rebound(options: argparse.Namespace) -> None:
         _tell(f"caution: {caution}")
     described = {"model": [model.name] * len(x), "loss": [loss] * len(x)}
     _print({"incidence [mu v2(0)]": x} | columns | described)
-
-
-def _groups(options: argparse.Namespace) -> dict[str, float]:
-    """The groups by name."""
-    return {name: getattr(options, name) for name in GROUPS}
 
 
 def _export(options: argparse.Namespace) -> None:
@@ -227,6 +223,14 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         super().error(checks.in_ascii(message))
 
+    def option(self, name: str, meaning: str, **settings: Any) -> None:
+        """Add an option that says what it means."""
+        self.add_argument(name, help=meaning, **settings)
+
+    def number(self, name: str, meaning: str, **settings: Any) -> None:
+        """Add an option that takes a number."""
+        self.option(name, meaning, type=_decimal, **settings)
+
 
 def _parser() -> argparse.ArgumentParser:
     """Parser of the command line, with one parser for each command."""
@@ -236,7 +240,7 @@ def _parser() -> argparse.ArgumentParser:
 
     def command(
         name: str, run: Callable[[argparse.Namespace], None], what: str, about: str, **settings: Any
-    ) -> argparse.ArgumentParser:
+    ) -> _Parser:
         """The parser of a command."""
         description = f"{what[0].upper()}{what[1:]}. {about}"
         added = commands.add_parser(name, help=what, description=description, **settings)
@@ -247,33 +251,17 @@ def _parser() -> argparse.ArgumentParser:
     rebound = command("rebound", _rebound, "state at separation", ABOUT)
     impact = rebound.add_mutually_exclusive_group(required=True)
     impact.add_argument("--incidence", type=_decimal, nargs="+", metavar="X")
-    impact.add_argument(
-        "--angle",
-        type=_decimal,
-        nargs="+",
-        help="of incidence, degrees from the normal; needs --friction",
-    )
-    rebound.add_argument("--friction", type=_decimal, help="mu, above 0, for --angle")
-    rebound.add_argument(
-        "--model",
-        choices=models.MODELS,
-        default="lumped",
-        help="below e = 1 one with a loss in its name [%(default)s]",
-    )
+    degrees = "of incidence, degrees from the normal; needs --friction"
+    impact.add_argument("--angle", type=_decimal, nargs="+", help=degrees)
+    rebound.number("--friction", "mu, above 0, for --angle")
+    named = "below e = 1 one with a loss in its name [%(default)s]"
+    rebound.option("--model", named, choices=models.MODELS, default="lumped")
     for name, (default, meaning) in GROUPS.items():
         option = "--" + name.replace("_", "-")
-        rebound.add_argument(
-            option, type=_decimal, default=default, help=f"{meaning} [%(default)s]"
-        )
-    rebound.add_argument(
-        "--set",
-        type=_setting,
-        action="append",
-        default=[],
-        dest="setting",
-        metavar="NAME=NUMBER",
-        help="a setting of the model, see `models`",
-    )
+        rebound.number(option, f"{meaning} [%(default)s]", default=default)
+    setting: dict[str, Any] = {"type": _setting, "action": "append", "default": []}
+    setting |= {"dest": "setting", "metavar": "NAME=NUMBER"}
+    rebound.option("--set", "a setting of the model, see `models`", **setting)
 
     scene = command(
         "scene",
@@ -284,42 +272,25 @@ def _parser() -> argparse.ArgumentParser:
         epilog=tables.HELP,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    scene.add_argument(
-        "input",
-        help="the table: a name that ends in .csv, .csv.gz or .parquet",
+    scene.option("input", "the table: a name that ends in .csv, .csv.gz or .parquet")
+    scene.option(
+        "output", "the same table with the state after each impact: names as for the input"
     )
-    scene.add_argument(
-        "output",
-        help="the same table with the state after each impact: names as for the input",
-    )
-    scene.add_argument(
+    scene.number(
         "--tolerance",
-        type=_decimal,
-        default=collision.TOLERANCE,
-        help="largest error: of the tangential velocity as a share of friction times normal speed, "
+        "largest error: of the tangential velocity as a share of friction times normal speed, "
         "of friction as a share of its limit [%(default)s, which the whole table of spheres meets]"
         "; the smallest that is reached is about 1e-8 at restitution 1 and 1e-5 below",
+        default=collision.TOLERANCE,
     )
-    scene.add_argument(
-        "--loss",
-        choices=continuum.LOSSES,
-        help="what takes the energy; needed where the table has no column for it",
-    )
-    scene.add_argument(
-        "--explain", action="store_true", help="say which model solved how many impacts, and why"
-    )
-    scene.add_argument(
-        "--skip-bad",
-        action="store_true",
-        help="leave bad rows out, and list them by number in OUTPUT.bad.csv",
-    )
-    scene.add_argument(
-        "--chunk",
-        type=_number,
-        default=tables.CHUNK,
-        metavar="ROWS",
-        help="rows of CSV that are in the memory at one time [%(default)s]",
-    )
+    needed = "what takes the energy; needed where the table has no column for it"
+    scene.option("--loss", needed, choices=continuum.LOSSES)
+    explained = "say which model solved how many impacts, and why"
+    scene.option("--explain", explained, action="store_true")
+    left_out = "leave bad rows out, and list them by number in OUTPUT.bad.csv"
+    scene.option("--skip-bad", left_out, action="store_true")
+    rows = "rows of CSV that are in the memory at one time [%(default)s]"
+    scene.option("--chunk", rows, type=_number, default=tables.CHUNK, metavar="ROWS")
 
     fitted = command(
         "fit",
@@ -330,7 +301,7 @@ def _parser() -> argparse.ArgumentParser:
         "the errors before and after, and what the overlap at this speed adds to them. They hold "
         "for one restitution, one material and a range of incidence.",
     )
-    fitted.add_argument("--law", required=True, choices=fit.CODES, help="the code and its law")
+    fitted.option("--law", "the code and its law", required=True, choices=fit.CODES)
     for name, meaning in {
         "restitution": f"energetic coefficient e, {fit.LEAST_RESTITUTION:g} to 1",
         "friction": "mu",
@@ -341,14 +312,11 @@ def _parser() -> argparse.ArgumentParser:
         "speed": "normal speed of approach [m/s], for the length of a step and linear springs; up "
         "to that at which spheres overlap by a tenth of their radius",
     }.items():
-        fitted.add_argument(f"--{name}", type=_decimal, required=True, help=meaning)
-    fitted.add_argument(
-        "--loss", choices=continuum.LOSSES, help="what takes the energy; needed below e = 1"
-    )
-    fitted.add_argument(
+        fitted.number(f"--{name}", meaning, required=True)
+    fitted.option("--loss", "what takes the energy; needed below e = 1", choices=continuum.LOSSES)
+    fitted.number(
         "--incidence-max",
-        type=_decimal,
-        help="end of the range of v1(0)/(mu v2(0)) that is fitted [where all slide throughout]",
+        "end of the range of v1(0)/(mu v2(0)) that is fitted [where all slide throughout]",
     )
 
     exported = command(
@@ -358,21 +326,12 @@ def _parser() -> argparse.ArgumentParser:
         "The code needs nothing else. It collides any two spheres, vectors in and vectors out; the "
         "head of the file explains it.",
     )
-    exported.add_argument("output", metavar="FILE", help="NAME.h, NAME.mjs or NAME.js")
-    exported.add_argument(
-        "--as",
-        choices=export.LANGUAGES,
-        required=True,
-        dest="language",
-        help="c, a header of C99 with NAME_collide, or js, a module of JavaScript with collide",
-    )
-    errors = " or ".join(f"{error:g}" for error in export.TABLES)
-    exported.add_argument(
-        "--tolerance",
-        type=_decimal,
-        default=min(export.TABLES),
-        help=f"largest error, {errors} [%(default)s]",
-    )
+    exported.option("output", "NAME.h, NAME.mjs or NAME.js", metavar="FILE")
+    languages = "c, a header of C99 with NAME_collide, or js, a module of JavaScript with collide"
+    choice: dict[str, Any] = {"choices": export.LANGUAGES, "dest": "language"}
+    exported.option("--as", languages, required=True, **choice)
+    errors = f"largest error, {' or '.join(f'{error:g}' for error in export.TABLES)} [%(default)s]"
+    exported.number("--tolerance", errors, default=min(export.TABLES))
 
     compared = command(
         "models",
@@ -381,17 +340,17 @@ def _parser() -> argparse.ArgumentParser:
         "Without options: what each describes, and what it neglects. With --material and "
         "--friction: how far each is from the continuum, and how long it takes.",
     )
-    named: dict[str, Any] = {"type": _material, "metavar": "NAME"}
     # Their table is not read for the help of every command: that takes longer than the parser.
     names = "a name such as nylon or steel, of which a wrong one lists all, or E,NU: Young's "
     names += "modulus [Pa] and Poisson's ratio"
-    compared.add_argument("--material", **named, help=f"of the sphere: {names}")
-    compared.add_argument("--on", **named, help="of what it strikes, likewise [a rigid body]")
-    compared.add_argument("--friction", type=_decimal, help="mu, above 0")
+    material: dict[str, Any] = {"type": _material, "metavar": "NAME"}
+    compared.option("--material", f"of the sphere: {names}", **material)
+    compared.option("--on", "of what it strikes, likewise [a rigid body]", **material)
+    compared.number("--friction", "mu, above 0")
     degrees = "of incidence, from and to, degrees from the normal [0 80]"
-    compared.add_argument("--angle", type=_decimal, nargs=2, help=degrees)
-    compared.add_argument("--restitution", type=_decimal, help="e [as the softer material has it]")
-    compared.add_argument("--loss", choices=continuum.LOSSES, help="[as the softer material]")
+    compared.number("--angle", degrees, nargs=2)
+    compared.number("--restitution", "e [as the softer material has it]")
+    compared.option("--loss", "[as the softer material]", choices=continuum.LOSSES)
     return parser
 
 

@@ -574,10 +574,6 @@ def contact(
     >>> pressure = yield_pressure(*contact(bead, steel, bead, steel), 1.0, 0.8)
     >>> round(float(pressure / 1e9), 2)
     2.59
-    >>> contact(bead, steel, bead)
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: other_material: missing, as the other body has a finite mass
     """
     _, mass = effective_masses(body, other)
     _material_or_rigid("other_material", other_material)
@@ -719,16 +715,13 @@ def yield_speed(
 
     The yield pressure is the largest pressure that the contact carries. It lies between 1.6 times
     the yield stress, where yield begins below the surface, and about 3 times, where the whole
-    contact yields (Johnson, Contact Mechanics, 1985). Arguments and errors: `planarimpact.bodies`.
+    contact yields (Johnson, Contact Mechanics, 1985). The law is Thornton's, see
+    `plastic_restitution`. Arguments and errors: `planarimpact.bodies`.
 
     Notes
     -----
     At the radius of contact a_y = pi p_y R/(2 E*) the pressure of Hertz in the centre is p_y. The
     approach is d_y = a_y^2/R there, and m2 v_y^2/2 = (8/15) E* R^(1/2) d_y^(5/2).
-
-    References
-    ----------
-    C. Thornton, J. Appl. Mech. 64 (1997) 383-386.
 
     Examples
     --------

@@ -22,23 +22,9 @@ def rebound(
 ) -> Rebound:
     """State at separation; all arguments broadcast.
 
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        As in `planarimpact.lumped.rebound`. The stiffness ratio has no effect: all models have the
-        same arguments.
-
-    Returns
-    -------
-    Rebound
-        The same fields and units as `planarimpact.lumped.rebound`: velocity
-        max(0, x - (1 + e) beta), friction at the halt (Eq. 34) or at maximum compression
-        (Eq. 35).
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, or shapes do not broadcast.
+    The velocity is max(0, x - (1 + e) beta), the peak of friction that at the halt (Eq. 34) or at
+    maximum compression (Eq. 35). The stiffness ratio has no effect: all models have the same
+    arguments. Arguments and errors: `planarimpact.lumped`.
 
     Examples
     --------

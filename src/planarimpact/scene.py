@@ -31,8 +31,8 @@ import numpy as np
 
 from planarimpact import bodies
 from planarimpact.bodies import Body, Material
-from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, Pair, mechanics, methods, model_form
-from planarimpact.collision.facts import cautions
+from planarimpact.collision import RESTITUTION_FROM, TOLERANCE, Pair, mechanics, methods
+from planarimpact.collision.facts import cautions, model_forms
 from planarimpact.collision.mechanics import Impacts, State
 from planarimpact.common import checks, files
 from planarimpact.common.arrays import Array, Booleans, Integers
@@ -139,11 +139,6 @@ def _model(solved: Solved) -> Any:
     return _words(places[solved.answers.place], models)
 
 
-def _caution(solved: Solved) -> Any:
-    """Names of cautions by their sums."""
-    return _words(solved.caution, CAUTIONS)
-
-
 def _peak_friction(solved: Solved) -> Array:
     """Without friction there is no force of it, also where the normal force is not known."""
     unit, peak = solved.impacts.unit, solved.answers.peak_friction
@@ -163,24 +158,31 @@ RESULT = {
         lambda s: s.answers.error,
     ),
     "model_form": Result(
-        "m/s", "how far that velocity would move with the other loss", lambda s: s.form
+        "m/s",
+        "how far that velocity would move with the other loss, to about 0.01 mu v2(0); NaN where "
+        "that is not known",
+        lambda s: s.form,
     ),
     "regime": Result(
         "", "the order of stick and slip", lambda s: _words(s.answers.regime, Regime.__members__)
     ),
     "incidence": Result(
         "",
-        "tangential over normal speed of the contact point, over friction",
+        "tangential over normal speed of the contact point, over friction; inf without friction",
         lambda s: s.impacts.incidence_of(np.arange(s.form.size)),
     ),
     "peak_normal_force": Result(
-        "N", "NaN where restitution is below 0.022", lambda s: s.peak_normal
+        "N", "by the loss; NaN where restitution is below 0.022", lambda s: s.peak_normal
     ),
     "peak_friction_force": Result("N", "", _peak_friction),
     "energy_lost": Result(
         "J", "", lambda s: sum(mechanics.energies_lost(s.impacts, s.answers.change))
     ),
-    "caution": Result("", "why the answer may not hold: --explain has the words", _caution),
+    "caution": Result(
+        "",
+        "why the answer may not hold: --explain has the words",
+        lambda s: _words(s.caution, CAUTIONS),
+    ),
 }
 
 
@@ -249,35 +251,26 @@ def solve(
         whose names are not similar to these, are carried over. A table without rows has an empty
         result.
     tolerance : float
-        Largest error of the velocity of the contact point at separation, in mu v2(0), and of the
-        peak friction, in mu times the peak normal force; 1e-10 to 1. The default is that of
-        `collide`: the whole table of spheres meets it. The error is measured
-        against the continuum: the elastic one where restitution = 1, else the viscous or the
-        plastic one. Elastic pairs reach some 1e-8, others 1e-5. How far a continuum is from nature
+        As in `planarimpact.collide`; it is also that of the peak friction, in mu times the peak
+        normal force. Elastic pairs reach some 1e-8, others 1e-5. How far a continuum is from nature
         is not part of it; `model_form` is a first measure of that.
     loss : str, optional
-        What takes the normal energy where restitution is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield). A table may have a column of this name instead, with empty
-        cells where restitution is 1, or the column relaxation_time, which is viscous, or
-        yield_pressure, which is plastic.
+        "viscous" or "plastic", as in a `Pair`, where restitution is below 1. A table may have a
+        column of this name instead, with empty cells where restitution is 1, or a column
+        relaxation_time or yield_pressure.
 
     Returns
     -------
     DataFrame
         `table` with its index and columns, and then: the state after, named as before with
-        `_after`; restitution and loss, where the table does not have them; the velocity of the
-        contact point after the impact, in the direction of incidence [m/s]; `model`; `error_bound`,
-        the largest error of that velocity against the continuum [m/s]; `model_form`, how far it
-        would move with the other loss, to about 0.01 mu v2(0) [m/s], NaN where that is not known;
-        `regime`; `incidence` v1(0)/(mu v2(0)), 0 where v1(0) = 0, else inf without friction;
-        largest normal force, by the normal law of the loss, and friction [N]; `energy_lost [J]`;
-        `caution`, why the answer may not hold, as names of `collision.Caution`.
+        `_after`; restitution and loss, where the table does not have them; and the columns of
+        `RESULT`, which says what they are.
 
     Raises
     ------
     InputError
-        For what is no DataFrame, columns that are missing, misspelt or do not go together, or a bad
-        row, by its number from 1, such as one below restitution 1 without a loss.
+        For what is no DataFrame, wrong columns, or a bad row, by its number from 1, such as one
+        below restitution 1 without a loss.
     ConvergenceError
         If the continuum does not reach the tolerance, by the row. It takes milliseconds an impact,
         at mass ratios of hundreds up to seconds; above some 10 000 most impacts end like this.
@@ -379,7 +372,7 @@ class Report:
         answers = methods.answers(impacts, self.tolerance, peaks=True)
         unsolved = {int(good[i]): message for i, message in answers.unsolved.items()}
         self._refuse(unsolved, skip_bad, ConvergenceError)
-        form = model_form.model_forms(impacts, answers.place, answers.velocity)
+        form = model_forms(impacts, answers.place, answers.velocity)
         codes = cautions(impacts, answers.place, answers.regime)
         solved = Solved(impacts, peak_normal, answers, form, codes)
         result = table.iloc[good].assign(**_after(solved, names))
@@ -443,13 +436,8 @@ def solve_file(
 
     Raises
     ------
-    InputError
-        As `solve`, or if a file is no table or has no rows. Row 1 is the first one below the
-        header; blank lines do not count.
-    ConvergenceError
-        As `solve`.
-    ImportError
-        If pandas, or pyarrow for Parquet, is not there; it says what to install.
+    InputError, ConvergenceError, ImportError
+        As `solve`, or if a file is no table or has no rows; Parquet needs pyarrow, too.
     OSError
         If a file cannot be read or written.
 
@@ -599,11 +587,6 @@ def _named(headers: Iterable[object]) -> dict[str, str]:
 
     Refused are those that do not make up bodies and a state, that are there twice, that misspell a
     known one, or that the result has. Others are for the user alone.
-
-    >>> _named(["radius [mm]"])
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: column 'radius [mm]': the unit of radius is [m]
     """
     header_of: dict[str, str] = {}
     others: list[str] = []

@@ -87,6 +87,18 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
     return told
 
 
+def new(verdicts: Sequence[Row], accepted: Sequence[Row]) -> list[str]:
+    """Names of comparisons that are made, fail no run, and that nobody has accepted yet.
+
+    >>> new([{"comparison": "a", "verdict": "agrees"}], [])
+    ['a']
+    """
+    known = {row["name"] for row in accepted if row["why"] != Why.AWAITED}
+    others = Verdict.FAILS, Verdict.DIFFERS, Verdict.NOT_COMPARED
+    made = [row["comparison"] for row in verdicts if row["verdict"] not in others]
+    return [name for name in made if name not in known]
+
+
 def _changed(was: Row, now: Row) -> Iterator[str]:
     """What of a row is not as accepted, in words."""
     before, after = map(verdict_table.outcome, (was, now))

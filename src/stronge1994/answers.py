@@ -75,7 +75,7 @@ def of_run(verdicts: Sequence[Row], ledger: Sequence[Row]) -> list[Answer]:
         Answer("Do measurements agree with the model?", _of_measurements(verdicts)),
         Answer(
             "What makes a run fail?",
-            ["A check of the solver outside its tolerance, or a result nobody has accepted"],
+            ["A check of the solver outside its tolerance, or a result that is not as accepted"],
         ),
     ]
 
@@ -89,7 +89,7 @@ def _of_solver(verdicts: Sequence[Row]) -> str:
 def _from_continuum(row: Row, ledger: Sequence[Row]) -> str:
     """How wrong the ledger calls it, and how far apart the speeds along the surface are."""
     grade = next((own["grade"] for own in ledger if own["entry"] == row["entry"]), "")
-    size = with_unit(float(f"{float(row['max']):.2g}"), row["unit"])
+    size = with_unit(float(row["max"]), row["unit"])
     told = f"speeds up to {size} apart where it sticks first"
     return words.sentence(f"{grade}: {told}" if grade else told)
 

@@ -10,13 +10,14 @@ from stronge1994.verdict_table import Group, Verdict, Why
 MOST_FAULTS = 8  # that are told at the end; the tables have all
 BY_FIGURE = "By figure: results/verdicts.txt"
 PASSED = f"""\
-PASSED: every result is as accepted, known differences included.
+PASSED: {{}} is as accepted, known differences included.
 This does not mean that the paper is right.
 Look: figures/report.html in a browser. {BY_FIGURE}"""
 UNMADE = (
     "NOT JUDGED: the figures are drawn, but {} comparisons cannot be made with these settings "
     "({}). To draw without judging, with your --config: snakemake --cores 2 figures"
 )
+NEW = "New: nobody has accepted {} yet. To accept: snakemake --cores 2 accept"
 ON_PURPOSE = "Other settings on purpose? To draw without judging: snakemake --cores 2 figures"
 
 
@@ -75,17 +76,21 @@ def summary(
     wrong: Sequence[str],
     shows: Mapping[str, str],
     grades: Mapping[str, str],
+    new: Sequence[str] = (),
 ) -> str:
     """What a run says at its end: what it has found, and whether it has passed.
 
-    `wrong` are its `faults`; `shows` says what each figure shows, `grades` are those of the
-    ledger's entries. A run without a ledger, or with it alone, is one of a part, of Fig. 6 for
-    example.
+    `wrong` are its `faults`, and `new` the comparisons that `accepted.new` names; `shows` says what
+    each figure shows, `grades` are those of the ledger's entries. A run without a ledger, or with
+    it alone, is one of a part, of Fig. 6 for example.
     """
     figures, others = {row["figure"] for row in verdicts}, unmade(verdicts)
     whole, parts = verdicts and ledger, []
+    same = "every other result" if new else "every result"
+    fresh = [_filled(NEW.format(", ".join(new)))] if new else []
     if whole and not wrong and not others:
-        return "\n".join(["", answers.text(answers.of_run(verdicts, ledger)), PASSED])
+        found = answers.text(answers.of_run(verdicts, ledger))
+        return "\n".join(["", found, *fresh, PASSED.format(same)])
     if whole:
         parts = [BY_FIGURE]
     elif len(figures) > 1:
@@ -105,9 +110,8 @@ def summary(
         parts += [f"  and {more} more: results/verdicts/, results/ledger.csv"] if more > 0 else []
         parts += [] if accepted.refused(verdicts, ledger) else [accepted.ACCEPT]
     elif not others:
-        parts += [
-            "Every result is as accepted." if verdicts or ledger else "There is nothing to compare."
-        ]
+        same = f"{same.capitalize()} is as accepted."
+        parts += [*fresh, same if verdicts or ledger else "There is nothing to compare."]
         parts += ["The verdict of all: snakemake --cores 2"]
     return "\n".join(["", *parts])
 

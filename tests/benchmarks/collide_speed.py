@@ -4,10 +4,11 @@ OMP_NUM_THREADS=1 python tests/benchmarks/collide_speed.py
 
 These are solid spheres, each with its own pair of materials: half of them viscous and half plastic,
 with restitution from 0.3 to 1, or all with a yield pressure, from which restitution follows. Times
-are those of the processor, and in brackets those of the clock.
+are those of the processor.
 """
 
 import time
+import timeit
 
 import numpy as np
 
@@ -25,21 +26,13 @@ SINGLE = {
 
 
 def timed(words, function, count=1, unit="s"):
-    """Print the least time of three of what `function` does `count` times."""
-    times = []
-    for _ in range(3):
-        start = time.process_time(), time.perf_counter()
-        function()
-        times.append((time.process_time() - start[0], time.perf_counter() - start[1]))
-    cpu, clock = (
-        min(each) * {"us": 1e6, "s": 1}[unit] / count for each in zip(*times, strict=True)
-    )
-    print(f"{words:<40} {cpu:6.2f} ({clock:.2f}) {unit}", flush=True)
+    """Print the least time of three of what `function` does, called `count` times."""
+    times = timeit.repeat(function, number=count, repeat=3, timer=time.process_time)
+    print(f"{words:<40} {min(times) * {'us': 1e6, 's': 1}[unit] / count:6.2f} {unit}", flush=True)
 
 
-def repeated(pair, body, model=None):
-    for _ in range(SINGLES):
-        collide(pair, UP, body, VELOCITY, SPIN, model=model)
+def one(pair, body, model=None):
+    collide(pair, UP, body, VELOCITY, SPIN, model=model)
 
 
 def million(seed=1):
@@ -70,10 +63,10 @@ def million(seed=1):
 if __name__ == "__main__":
     ball = bodies.solid_sphere(0.01, density=2000.0)
     for words, pair in SINGLE.items():
-        timed(f"one impact, {words}", lambda pair=pair: repeated(pair, ball), SINGLES, "us")
+        timed(f"one impact, {words}", lambda pair=pair: one(pair, ball), SINGLES, "us")
     viscous = SINGLE["viscous, e = 0.9"]
     for name in ("lumped.hysteretic", "rigid"):
-        timed(f"one impact, {name}", lambda name=name: repeated(viscous, ball, name), SINGLES, "us")
+        timed(f"one impact, {name}", lambda name=name: one(viscous, ball, name), SINGLES, "us")
     pairs, arguments = million()
     for words, table in pairs.items():
         timed(f"a million, {words}", lambda table=table: collide(table, *arguments))

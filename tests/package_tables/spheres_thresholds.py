@@ -26,7 +26,7 @@ from planarimpact.common.arrays import Array
 from planarimpact.continuum import inelastic
 from planarimpact.continuum.inelastic.plastic import PlasticMotion
 from planarimpact.continuum.inelastic.viscous import ViscousMotion
-from planarimpact.normal_impact import yielding
+from planarimpact.normal_impact import kelvin_voigt, yielding
 
 # Steps of the continuum, and impacts solved together.
 STEPS, TOGETHER = 256, 256
@@ -42,14 +42,15 @@ def friction_falls(b: Array, e: Array) -> Array:
     >>> float(friction_falls(np.array([2.5]), np.array([0.5]))[0].round(3))
     0.284
     """
-    motion = ViscousMotion(e)
+    taus, compression, _ = kelvin_voigt.halves(tuple(e.tolist()))
 
     def fall(which: Any, v: Array) -> tuple[Array]:
-        approach, force = motion.take(which).compressed(v)
-        tau = motion.tau[which]
-        return (tau * b[which] * force - v - tau * v**2 / (2 * approach),)
+        half, tau = compression.taken(which), taus[which]
+        radius = half.at(half.crossing(1, v[None]))[0, 0]
+        force = 4 / 3 * radius**3 + 2 * tau * radius * v
+        return (tau * b[which] * force - v - tau * v**2 / (2 * radius**2),)
 
-    v = roots.crossing(fall, motion.velocity_at_largest_force, np.ones(e.size))
+    v = roots.crossing(fall, ViscousMotion(e).velocity_at_largest_force, np.ones(e.size))
     return 1 - v
 
 

@@ -156,6 +156,13 @@ def test_slip_throughout_begins_where_the_derivation_says(loss, beta, zeta2, e):
     assert under.regime != Regime.SLIP_THROUGHOUT
 
 
+def test_a_history_meets_its_tolerance_at_every_instant():
+    own, exact = (continuum.history(2.3, tolerance=allowed) for allowed in (2e-5, 1e-6))
+    for name in ("friction_force", "velocity"):
+        wanted = np.interp(own.time, exact.time, getattr(exact, name))
+        np.testing.assert_allclose(getattr(own, name), wanted, rtol=0, atol=2e-5)
+
+
 @pytest.mark.parametrize("loss", LOSSES)
 def test_the_contact_starts_in_stick_up_to_zeta2(loss):
     for x, sticks in ((ZETA2 * 0.98, True), (ZETA2 * 1.02, False)):

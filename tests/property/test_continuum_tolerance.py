@@ -10,7 +10,7 @@ import pytest
 
 from planarimpact import Regime, continuum, lumped
 from planarimpact.common import losses, sliding
-from planarimpact.continuum import inelastic, tangential_motion
+from planarimpact.continuum import inelastic
 from planarimpact.continuum.micro_slip import ElasticSprings
 from planarimpact.normal_impact import hertz
 
@@ -88,6 +88,8 @@ FOUND = [
     (2.7993977525178293, 18.623598180509077, 0.605000672110507),
     (7.630833725514405, 7.742681694086329, 0.21935046973566377),
 ]
+# From 256 to 512 steps the extrapolated answer moves by 1e-6, by chance, and is wrong by 3.4e-4.
+BY_CHANCE = np.array([[8.823256960990886], [18.56038953662075], [0.3168530116148592]])
 
 
 def assert_met(groups, tolerances):
@@ -109,8 +111,8 @@ def assert_met(groups, tolerances):
 
 
 def test_the_tolerance_is_met_by_elastic_spheres():
-    samples = np.array(FOUND).T, corner(10), *BESIDE_ONSETS, all_over(6)
-    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 1e-4: 23, 1e-5: 8})
+    samples = np.array(FOUND).T, corner(10), *BESIDE_ONSETS, all_over(6), BY_CHANCE
+    assert_met(np.concatenate(samples, axis=1), {1e-3: None, 3e-4: None, 1e-4: 23, 1e-5: 8})
 
 
 @pytest.mark.slow
@@ -118,24 +120,6 @@ def test_the_tolerance_is_met_by_elastic_spheres():
 @pytest.mark.parametrize("sample", [corner(200), all_over(400)])
 def test_the_tolerance_is_met_by_many_elastic_spheres(sample):
     assert_met(sample, {1e-2: None, 1e-3: None, 1e-4: None})
-
-
-def test_the_estimate_survives_a_change_that_vanishes_by_chance():
-    """From 256 to 512 steps the extrapolated answer moves by 1e-6, and is wrong by 3.4e-4."""
-    groups = 8.823256960990886, 18.56038953662075, 0.3168530116148592
-    exact = -0.55347522  # extrapolated from 4096 steps; 8192 change it by 3e-8
-    assert abs(continuum.rebound(*groups, tolerance=3e-4).velocity - exact) <= 3e-4
-
-
-def test_the_end_of_slip_within_a_step_is_not_missed():
-    """Repeated stick and slip, where a missed turning point would cost 1e-4 by chance."""
-    groups = 3.0721553278340115, 2.916339839549625, 0.19124359805672045
-    exact = 0.35764792  # extrapolated from 2048 steps
-    assert continuum.rebound(*groups, tolerance=1e-4).regime == Regime.MULTIPLE
-    for steps in (128, 256, 512):
-        one = np.array(groups)[:, None]
-        coarse, fine = (tangential_motion.path(*one, n)[2, -1] for n in (steps // 2, steps))
-        assert abs(fine + (fine - coarse) / 3 - exact) < 1e-5
 
 
 # ---- with a loss ----
@@ -238,14 +222,3 @@ def test_impacts_that_were_solved_wrong_or_refused_are_solved(
     found = continuum.rebound(*impact, loss=loss, tolerance=tolerance)
     for one, right in ((found.velocity, velocity), (found.peak_friction, peak)):
         assert right is None or one == pytest.approx(right, abs=allowed)
-
-
-@pytest.mark.parametrize("loss", continuum.LOSSES)
-def test_the_error_falls_smoothly_with_the_square_of_the_steps(loss):
-    """What blurs events within a step converges all the same, but does not extrapolate."""
-    x = np.linspace(0.2, 4.2, 41)
-    groups = np.full((3, x.size), [[3.5], [1.21], [0.6]])
-    motion = inelastic.MOTIONS[losses.SPHERES[loss]]
-    found = [inelastic.path(x, *groups, motion, n).velocity[-1] for n in (128, 256, 512)]
-    # Found 2e-5. An edge with its whole width has 9e-5, slip that ends unseen within steps 1.4e-4.
-    assert extrapolated(found)[1].max() < 4e-5

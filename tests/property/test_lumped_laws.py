@@ -61,12 +61,6 @@ def rounding(groups, loss):
     return share * np.maximum(groups[0], groups[1])
 
 
-def test_the_impacts_lie_on_both_sides_of_sticking_again(impacts):
-    _, beta, zeta2, e = impacts
-    fast = e * e > zeta2 / beta
-    assert 0.1 < fast.mean() < 0.9
-
-
 def test_friction_creates_no_energy_and_keeps_its_limit(impacts, found):
     assert (np.abs(found.velocity) <= impacts[0]).all()
     assert (found.dissipation >= 0).all() and np.isfinite(found.dissipation).all()
@@ -187,10 +181,13 @@ def test_one_and_many_and_history_agree(impacts, found, loss):
         slack = rounding((1.0, contact.normal.max()), loss)
         assert (np.abs(contact.friction_force) <= contact.normal + slack).all(), point
         phases = sum(event.kind in ("stick", "slip") for event in contact.events)
-        assert (phases > 3) == (alone.regime == Regime.MULTIPLE), point
+        # Where the last phase shrinks to nothing, rounding decides whether there is one.
+        near = lumped.rebound(x * (1 + STEP * np.arange(-1, 2)), beta, zeta2, e, loss=loss).regime
+        assert (phases > 3) in (near == Regime.MULTIPLE), point
         energy = contact.velocity**2 / (2 * beta) + contact.spring**2 / (2 * zeta2)
         slack = rounding(point, loss) * max(x, beta) / beta
         assert (np.diff(energy) <= slack).all(), point
         if e > 0:
             work = lumped.friction_work(*point, loss=loss)
-            assert abs(work - alone.dissipation) <= 2 * rounding(point, loss) * (x / beta), point
+            slack = rounding(point, loss)  # of x, so of x^2/beta:
+            assert abs(work - alone.dissipation) <= slack * (2 * x + slack) / beta, point

@@ -56,9 +56,6 @@ def test_random_bodies(seed):
     assert jams  # the sample has them
 
 
-# Mass, gyration and contact point of bodies with m2 = 1.
-HELD = 27.478123341887763, 1.0, 5.1456897829045, -3.0240573965824393
-BURST = 10.439702294961105, 1.0, 3.0724098513969627, 4.006143059717655
 SPIKY = (1.032, 0.9537), (-2.2135, -1.59155)  # mass, gyration; contact point
 
 
@@ -82,42 +79,6 @@ def test_hard_impacts(impact):
     assert max(worst) <= AGREEMENT
 
 
-def swing(friction, normal, mass, e):
-    """Change of velocity in one swing of N under the largest forces.
-
-    When a contact lets go, or begins to creep, is a matter of less.
-    """
-    return 2 * np.pi * e * (mass.tangential * friction + abs(mass.coupling) * normal)
-
-
-@pytest.mark.parametrize(
-    ("v1", "body", "friction", "stiffness_ratio"),
-    [
-        # beta = 0.3692, C = 0.5663: compressed again, then held closed in stick and in creep.
-        (6.2256, HELD, 1.8575, 1.3185),
-        # The first swing slips, is held all the same, and friction passes a crest.
-        (-8.52178, BURST, 0.88069, 2.34643),
-    ],
-)
-def test_no_restitution_is_the_limit_of_integrations_with_little(
-    v1, body, friction, stiffness_ratio
-):
-    mass = noncollinear.inverse_mass(body[0], body[1], offset=body[2], depth=-body[3])
-    limit = paper_rebound(v1, 1.0, mass, friction, 0.0, stiffness_ratio)
-    assert limit.jams and limit.normal == 0
-    changes = []
-    for e in (0.08, 0.02):
-        contact = Contact(v1, -1.0, body, friction, e, stiffness_ratio, 1.0).run()
-        _, _, tangential, normal = contact.state
-        bound = swing(limit.peak_friction, limit.peak_normal, mass, e)
-        changes.append(abs(limit.tangential - tangential))
-        assert changes[-1] <= bound and abs(normal) <= bound
-        assert abs(contact.peak_friction - limit.peak_friction) <= bound
-        assert abs(contact.time - limit.duration) <= bound
-    # It comes closer at least as fast as e falls.
-    assert changes[1] <= changes[0] / 4
-
-
 @pytest.mark.parametrize("e", [0.02, pytest.param(0.005, marks=pytest.mark.long)])
 def test_no_restitution_is_the_limit_for_any_body(e):
     rng = np.random.default_rng(0)
@@ -132,20 +93,9 @@ def test_no_restitution_is_the_limit_for_any_body(e):
     # Where a contact just fails to let go the answer jumps, at a place that moves with e: none of
     # these impacts lies between.
     little = paper_rebound(v1, 1.0, mass, mu, e, zeta2)
-    bound = swing(limit.peak_friction, limit.peak_normal, mass, e)
+    # When a contact lets go, or begins to creep, is a matter of less than one swing of N. This is
+    # the change of velocity in one, under the largest forces.
+    largest = mass.tangential * limit.peak_friction + abs(mass.coupling) * limit.peak_normal
+    bound = 2 * np.pi * e * largest
     for name in ("tangential", "peak_friction"):
         assert (np.abs(getattr(little, name) - getattr(limit, name)) <= bound).all(), name
-
-
-@pytest.mark.parametrize(
-    "impact", [(-27.1, 0.1175, -0.32445, 8.75, 1.0), (18.6, 0.754, 0.6514, 2.74, 7.31)]
-)
-def test_friction_that_just_suffices_compresses_a_contact_again(impact):
-    """Held closed without restitution, then compressed beyond the earlier peak by less than 1 %."""
-    v1, mass_ratio, coupling, friction, stiffness_ratio = impact
-    mass = noncollinear.InverseMass(mass_ratio, coupling, 1.0)
-    limit, little = (
-        paper_rebound(v1, 1.0, mass, friction, e, stiffness_ratio) for e in (0.0, 0.003)
-    )
-    assert abs(little.tangential - limit.tangential) < 1e-4
-    assert abs(little.peak_normal - limit.peak_normal) < 1e-4

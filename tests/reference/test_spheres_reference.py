@@ -172,7 +172,7 @@ def test_the_coarse_table_is_as_near_as_it_says(name, monkeypatch):
 )
 def test_below_x_of_1_the_error_is_over_x(name, count):
     """At random b and e, and incidences down to 1e-9."""
-    x, zeta2 = np.array([1e-9, 1e-4, 1e-3, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.3, 0.9]), 1.6
+    x, zeta2 = np.array([1e-9, 1e-3, 0.02, 0.05, 0.1, 0.9]), 1.6
     loss, shipped = table.loss_of(name), table.shipped()
     for t, u in np.random.default_rng(21).random((count, 2)):
         b = spheres_tables.b_at(loss, u)
@@ -246,11 +246,13 @@ def test_a_table_is_read_as_it_was_written():
         assert all(map(np.array_equal, one[1:], other[1:]))
 
 
-@pytest.mark.parametrize(
-    ("name", "number"), [("viscous", 3), pytest.param("plastic_middle", 3, marks=pytest.mark.long)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("name", "number"), [("viscous", 3), ("plastic_middle", 3)])
 def test_the_job_makes_the_shipped_table(name, number):
-    """One patch of the coarse one, which takes the least time."""
+    """One patch of the coarse one, which takes the least time.
+
+    Each day the errors above would show a table that is not the continuum.
+    """
     plan, shipped = spheres_tables.PLANS["coarse"], table.shipped("coarse")
     u = np.linspace(0, 1, plan.edges["plastic"][1] + 1)[::8]
     np.testing.assert_allclose(

@@ -1,6 +1,5 @@
 """Tables of data/ that are computed are what their generators compute."""
 
-import numpy as np
 import pytest
 
 from tests.reference_solutions import (
@@ -11,7 +10,6 @@ from tests.reference_solutions import (
     inelastic_tables,
     printed_tables,
     rod_tables,
-    spring_row,
     table_files,
 )
 
@@ -26,7 +24,7 @@ GENERATORS = {
 }
 
 
-# These take long; test_inelastic_reference.py and tests/unit/test_trade.py have samples.
+# These take long; test_continuum_reference.py and tests/unit/test_trade.py have samples.
 LONG = "model_errors", "inelastic_models"
 
 
@@ -51,20 +49,6 @@ def test_histories_of_the_continuum_are_what_their_generator_computes():
     path = table_files.DATA / "elastic_continuum/micro_slip_instants.csv"
     table = continuum_tables.tables()["micro_slip_instants"]
     assert not table_files.differing(path, table, 1, 1.1e-6)
-
-
-@pytest.mark.parametrize(("variant", "zeta2"), [("", 1.21), ("rubber", 1.5)])
-def test_rebound_by_annuli_is_that_of_a_row_of_springs(variant, zeta2):
-    """In place of the annuli themselves, which take longer and share no code with this method.
-
-    2e-4 is 1e-4 for the table, its sigma, and 1e-4 for the springs: half as many springs and steps
-    change velocities by that much.
-    """
-    rows = table_files.read("elastic_continuum/fig5_rebound")
-    rows = [row for row in rows if row["variant"] == variant]
-    x, velocity = np.array([list(row.values())[2:4] for row in rows[1::4]], float).T
-    found = spring_row.course(x, 3.5, zeta2, (2.0,), springs=2000, steps=8000).velocity[0]
-    np.testing.assert_allclose(velocity, found, rtol=0, atol=2e-4)
 
 
 def test_a_changed_cell_is_seen(tmp_path):

@@ -2,12 +2,10 @@
 
 Two continua, rows of springs by the method of dimensionality reduction: viscoelastic (springs and
 dashpots of one relaxation time) and elastic-plastic (Thornton 1997, with shear that flows while
-metal yields). And the lumped model of two Kelvin-Voigt elements. The solver has faster ways to all
-three; no code is shared.
+metal yields). The solver has faster ways to both; no code is shared.
 
-The effective mass m2, the incident normal velocity and the stiffness of the normal element are 1;
-in the continua also the effective radius and the modulus E*. Tangential displacements are divided
-by mu, so that the normal force itself limits friction.
+The effective mass m2, the incident normal velocity, the effective radius and the modulus E* are 1.
+Tangential displacements are divided by mu, so that the normal force itself limits friction.
 """
 
 import functools
@@ -27,7 +25,7 @@ class Impact(NamedTuple):
     """What `impact` returns, of each incidence."""
 
     velocity: np.ndarray  # tangential, at separation, in mu v2(0)
-    work: np.ndarray  # of friction, in mu^2 m2 v2(0)^2; 0 for the lumped model: it is not asked
+    work: np.ndarray  # of friction, in mu^2 m2 v2(0)^2
     peak_friction: np.ndarray  # largest friction of all steps, in mu times the largest normal force
     gross_slips: np.ndarray  # how often the whole contact slides, see `_runs`
 
@@ -35,7 +33,7 @@ class Impact(NamedTuple):
 class Normal:
     """The normal motion of one contact: `end`, and deflection and velocity at some times.
 
-    `peak` is the largest normal force, in a continuum in (E* sqrt(R))^0.4 m2^0.6 v2(0)^1.2.
+    `peak` is the largest normal force, in (E* sqrt(R))^0.4 m2^0.6 v2(0)^1.2.
     """
 
     def __init__(self, phases):
@@ -83,9 +81,12 @@ def viscous_motion(tau):
         a2 = max(min(d, drive) if v < 0 else d, 0.0)
         return 2 * np.sqrt(a2) * (drive - a2 / 3)
 
-    return _with_peak(
-        _two_phases(force, lambda _: force, lambda _: lambda d, v: d + tau * v), force
-    )
+    motion = _two_phases(force, lambda _: force, lambda _: lambda d, v: d + tau * v)
+    # A dashpot puts the largest force before the greatest compression.
+    ends, fine = (0.0, motion.turn), {"xatol": 1e-10}
+    highest = minimize_scalar(lambda time: -force(*motion.at(time)), bounds=ends, options=fine)
+    motion.peak = -highest.fun
+    return motion
 
 
 def plastic_motion(yield_radius):
@@ -112,30 +113,9 @@ def plastic_motion(yield_radius):
     return motion
 
 
-def kelvin_voigt_motion(damping):
-    """Loading and unloading of a spring and a dashpot, N = u + 2 xi u', while they press."""
-
-    def force(u, v):
-        return u + 2 * damping * v
-
-    return _with_peak(_two_phases(force, lambda _: force, lambda _: force), force)
-
-
-def _with_peak(motion, force):
-    """A motion with its largest force, which a dashpot puts before the greatest compression."""
-
-    def pull(time):
-        return -force(*motion.at(time))
-
-    highest = minimize_scalar(pull, bounds=(0.0, motion.turn), options={"xatol": 1e-10})
-    motion.peak = -highest.fun
-    return motion
-
-
 MOTIONS = {
     "continuum.viscous": (viscous_motion, 1e-9, 20.0),
     "continuum.plastic": (plastic_motion, 1e-4, 1.2),
-    "lumped.viscous": (kelvin_voigt_motion, 1e-9, 20.0),
 }
 
 
@@ -188,7 +168,7 @@ def small_incidences(loss, x, beta, zeta2, restitution):
 def impact(model, x, beta, zeta2, restitution, steps=600, springs=200):
     """Impacts of some incidences, with so many steps of time and springs over the radius."""
     motion, parameter = motion_with(model, float(restitution))
-    row = {"continuum.viscous": _Viscous, "continuum.plastic": _Plastic, "lumped.viscous": _Pair}
+    row = {"continuum.viscous": _Viscous, "continuum.plastic": _Plastic}
     contact = row[model](motion, parameter, zeta2, springs)
     w = np.array(x, float)
     u, before, largest = np.zeros_like(w), np.zeros_like(w), np.zeros_like(w)
@@ -299,23 +279,3 @@ class _Plastic(_Row):
             self._slide(wanted - u[:, None], held - u[:, None], held, share)
             self.flowed, self.u = flowed, u
         return 2 * self.width * (held * share).sum(1) / self.zeta2
-
-
-class _Pair:
-    def __init__(self, motion, damping, zeta2, _):
-        self.motion, self.tau, self.zeta2, self.s = motion, 2 * damping, zeta2, 0.0
-        self.work = 0.0
-
-    def friction(self, normal, dt, _, w, keep):
-        d, v, _ = normal
-        limit = self.zeta2 * max(d + self.tau * v, 0.0)
-        relax = -np.expm1(-dt / self.tau)
-        # What friction would be if it stuck to the middle of the step.
-        wanted = self.s + w * dt / 2 + self.tau * w
-        held = np.clip(wanted, -limit, limit)
-        slips = np.abs(wanted) > limit
-        if keep:
-            self.slides = slips
-            slipped = self.s + (held - self.s) * relax
-            self.s = np.where(slips, slipped, self.s + w * dt)
-        return held / self.zeta2

@@ -12,7 +12,7 @@ import yaml
 from mpmath import mp
 from scipy.optimize import minimize_scalar
 
-from tests.reference_solutions import inelastic_contact
+from tests.reference_solutions import high_precision, inelastic_contact, viscous_precision
 from tests.reference_solutions.exact_tables import (
     ANGLE,
     CURVE,
@@ -25,7 +25,6 @@ from tests.reference_solutions.exact_tables import (
     ZETA2,
     shot_columns,
 )
-from tests.reference_solutions.high_precision import rebound as exact_rebound
 from tests.reference_solutions.table_files import DATA, digits, read, table, write
 
 BETA = 3.5
@@ -105,10 +104,11 @@ def velocities(model, x, zeta2, e):
     """Velocities at separation."""
     if model == "lumped.unloading-stiffness":
         zeta2 = e * e * zeta2
-    # Without loss a Kelvin-Voigt element is a spring, and its relaxation has no steps.
-    springs = model in ("lumped.hysteretic", "lumped.unloading-stiffness")
-    if springs or (model == "lumped.viscous" and e == 1):
-        return np.array([float(exact_rebound(float(v), BETA, zeta2, e, 15).velocity) for v in x])
+    if model not in CONTINUA:
+        # Without loss a Kelvin-Voigt element is a spring.
+        dashpots = model == "lumped.viscous" and e < 1
+        exact = viscous_precision if dashpots else high_precision
+        return np.array([float(exact.rebound(float(v), BETA, zeta2, e, 15).velocity) for v in x])
     return inelastic_contact.rebound(model, x, BETA, zeta2, e, STEPS, SPRINGS)
 
 

@@ -34,7 +34,6 @@ class Contact:
         self.peak_friction = 0.0
         # The spring can follow the body only as fast as friction grows.
         self.g = 0 if abs(v1) <= friction * stiffness_ratio * abs(v2) else math.copysign(1, v1)
-        self.kinds = ["slip" if self.g else "stick"]
         # Of each phase: when it begins, what SciPy found, slip direction, loading, deepest; and
         # the name of the event that ends it.
         self.phases = []
@@ -100,10 +99,8 @@ class Contact:
             self.loading = True
         elif name == "stop":
             self.g = 0
-            self.kinds.append("stick")
         else:
             self.g = 1 if name == "forward" else -1  # friction opposes slip
-            self.kinds.append("slip")
         if self.g:
             self.state[0] = self.zeta2 / self.kappa * self.tangential(0.0, self.state[1])
         return False

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 from mpmath import mp
 
 from tests.reference_solutions import inelastic_contact, table_files
@@ -104,16 +105,15 @@ class _Impact:
         row = {name: mp.mpf(float(text)) for name, text in row.items()}
         self.row, (self.velocity, self.spin, self.normal) = row, _state(row)
         self.mass, self.inertia = _mass(row)
-        self.arm = _times(-row["radius"], self.normal)  # from the centre to the contact
+        self.arm = self.normal * -row["radius"]  # from the centre to the contact
         contact = self.at_contact(self.velocity, self.spin)
-        self.approach = -_dot(contact, self.normal)
-        sideways = _plus(contact, _times(self.approach, self.normal))
-        self.speed = mp.sqrt(_dot(sideways, sideways))
-        self.tangent = _times(1 / self.speed, sideways)
+        self.approach = -(contact @ self.normal)
+        sideways = contact + self.normal * self.approach
+        self.speed = mp.sqrt(sideways @ sideways)
+        self.tangent = sideways / self.speed
         # 1/m2 and 1/m1: velocity of the contact point along a unit impulse.
         self.give, self.give_tangential = (
-            _dot(self.at_contact(*self.changes(along)), along)
-            for along in (self.normal, self.tangent)
+            self.at_contact(*self.changes(along)) @ along for along in (self.normal, self.tangent)
         )
         self.modulus, ratio = _stiffness(row)
         self.groups = Groups(
@@ -126,15 +126,15 @@ class _Impact:
 
     def at_contact(self, velocity, spin):
         """Velocity of the contact point."""
-        return _plus(velocity, _cross(spin, self.arm))
+        return velocity + np.cross(spin, self.arm)
 
     def changes(self, impulse):
         """Of velocity and spin, by an impulse at the contact."""
-        return _times(1 / self.mass, impulse), _times(1 / self.inertia, _cross(self.arm, impulse))
+        return impulse / self.mass, np.cross(self.arm, impulse) / self.inertia
 
     def energy(self, velocity, spin):
         """Kinetic energy."""
-        return (self.mass * _dot(velocity, velocity) + self.inertia * _dot(spin, spin)) / 2
+        return (self.mass * (velocity @ velocity) + self.inertia * (spin @ spin)) / 2
 
     def after(self, other, w, peak_friction, regime):
         """`{column of the result: number or regime}`, from the rebound without units.
@@ -143,12 +143,10 @@ class _Impact:
         """
         e, friction = self.row["restitution"], self.row["friction"]
         unit = friction * self.approach
-        impulse = _plus(
-            _times((1 + e) * self.approach / self.give, self.normal),
-            _times((w * unit - self.speed) / self.give_tangential, self.tangent),
-        )
+        impulse = self.normal * ((1 + e) * self.approach / self.give)
+        impulse += self.tangent * ((w * unit - self.speed) / self.give_tangential)
         before = self.velocity, self.spin
-        after = [*map(_plus, before, self.changes(impulse))]
+        after = [old + change for old, change in zip(before, self.changes(impulse), strict=True)]
         peak = self._peak_normal()
         return _columns(*after, "normal_x" in self.row) | {
             "contact_velocity_after [m/s]": w * unit,
@@ -176,12 +174,12 @@ class _Impact:
 def _state(row):
     """Velocity, spin and normal in space; a plane state has x along the surface and z off it."""
     if "normal_x" in row:
-        numbers = [row[name] for name in SPACE]
-        return numbers[:3], numbers[3:], [row[f"normal_{axis}"] for axis in "xyz"]
+        numbers = [row[name] for name in (*SPACE, *(f"normal_{axis}" for axis in "xyz"))]
+        return np.array(numbers).reshape(3, 3)
     along, down, spin = (row[name] for name in PLANE)
     # The contact is below the centre: turning about -y moves it along x.
     zero = mp.zero
-    return [along, zero, -down], [zero, -spin, zero], [zero, zero, mp.one]
+    return np.array([[along, zero, -down], [zero, -spin, zero], [zero, zero, mp.one]])
 
 
 def _columns(velocity, spin, space):
@@ -212,22 +210,6 @@ def _stiffness(row):
             normal += (1 - poisson**2) / young
             tangential += (2 - poisson) / shear
     return 1 / normal, tangential / normal / 4
-
-
-def _plus(a, b):
-    return [x + y for x, y in zip(a, b, strict=True)]
-
-
-def _times(factor, a):
-    return [factor * x for x in a]
-
-
-def _dot(a, b):
-    return mp.fsum(x * y for x, y in zip(a, b, strict=True))
-
-
-def _cross(a, b):
-    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
 
 
 def _text(value):

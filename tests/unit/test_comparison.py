@@ -8,7 +8,7 @@ import pytest
 from scipy import optimize, stats
 from scipy.optimize import minimize
 
-from stronge1994 import tables, verdict_table
+from stronge1994 import reference_data, tables, verdict_table
 from stronge1994.goodness import chi_squared
 from stronge1994.judging import compare, landmarks, write
 from stronge1994.judging.comparisons import Comparison
@@ -298,39 +298,46 @@ def test_a_row_has_what_was_measured(tmp_path):
     (tmp_path / "p.csv").write_text("x [s],y [N],v [m]\n0,1.5,\n1,2.5,\n2,-0.5,4.0\n")
     tables.write(path, table)
     axis = {"range": [-9, 9], "sigma": 0.3}
-    series = {"kind": "digitised", "path": str(tmp_path / "p.csv"), "sigma_values": 4}
+    read = {"kind": "digitised", "path": str(tmp_path / "p.csv"), "sigma_values": 4}
     axes = {name: axis | {"column": name, "unit": unit} for name, unit in ("xs", "yN", "vm")}
-    series |= {"x": axes["x"], "y": axes["y"]}
-    references = {
-        "they/fact": {"value": 1.0, "tolerance": 0.25, "unit": "N"},
-        "they/sign": {"less_than": 0.0, "unit": "1"},
-        "they/points": series,
-        "they/both": series | {"kind": "computed", "y": [axes["y"], axes["v"]]},
-        "they/later": series | {"kind": "awaited", "figure": "Fig. 1"},
-        "they/other": series | {"settings": {"e": 0.5, "mu": 1}},
+    read |= {"x": axes["x"], "y": axes["y"]}
+    facts = {
+        "fact": {"value": 1.0, "tolerance": 0.25, "unit": "N"},
+        "sign": {"less_than": 0.0, "unit": "1"},
+    }
+    series = {
+        "points": read,
+        "both": read | {"kind": "computed", "y": [axes["y"], axes["v"]]},
+        "later": read | {"kind": "awaited", "figure": "Fig. 1"},
+        "other": read | {"settings": {"e": 0.5, "mu": 1}},
     }
     landmark = {"kind": "value", "x": "x [s]", "y": "y [N]", "at": 1}
     value = {"metric": "landmark", "landmark": landmark}
     known = {"differs": {"why": "cause known", "entry": "eq-1"}}
-    fact = {"reference": "they/fact"}
-    points = {"metric": "distance", "reference": "they/points", "allowance": {"x": 0.0, "y": 0.4}}
+    fact = {"reference": "fact"}
+    points = {"metric": "distance", "reference": "points", "allowance": {"x": 0.0, "y": 0.4}}
     entries = {
         "law": {"metric": "small", "columns": ["y [N]"], "limit": 2.0},
         "pair": {"metric": "small", "columns": ["y [N]", "v [m]"], "limit": 1e-12},
         "span": {"metric": "range", "columns": ["y [N]"], "range": [0.0, 2.0]},
         "fact": fact | value | known,
-        "sign": {"reference": "they/sign"} | value,
+        "sign": {"reference": "sign"} | value,
         "points": points,
         "same": points | known,
-        "later": points | {"reference": "they/later"},
-        "both": points | {"reference": "they/both"},
-        "other": points | {"reference": "they/other"},
+        "later": points | {"reference": "later"},
+        "both": points | {"reference": "both"},
+        "other": points | {"reference": "other"},
         "none": {"metric": "small", "columns": ["z"]},
     }
     own = {"curve": {"model": "a"}, "reason": "so"}
-    entries = {name: entry | own for name, entry in entries.items()}
+    inventory = {"they": {"series": series, "facts": facts}}
+    every = []
+    for name, entry in entries.items():
+        full = entry.get("reference")
+        known = reference_data.reference(inventory, f"they/{full}") if full else None
+        every.append(Comparison(name, **entry | own | {"reference": known}))
     settings = {"e": [0.4, 0.6], "mu": [1, 2]}
-    rows = compare("fig0", path, entries, references, 0.01, settings)
+    rows = compare("fig0", path, every, 0.01, settings)
     cells = [[f"{row[key]}" for key in ("comparison", *COLUMNS[3:19])] for row in rows]
     assert [",".join(own) for own in cells] == CELLS.split("\n")[1:-1]
     assert {row["comparison"]: row["note"] for row in rows if row["note"]} == NOTES
@@ -349,4 +356,4 @@ def test_a_row_has_what_was_measured(tmp_path):
     for wrong in (np.inf, "nan", "a word"):
         table.astype(object).replace({"y [N]": {0.5: wrong}}).to_csv(path, index=False)
         with pytest.raises(ValueError, match="allowed are finite numbers"):
-            compare("fig0", path, entries, references, 0.01, settings)
+            compare("fig0", path, every, 0.01, settings)

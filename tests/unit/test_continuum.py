@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from planarimpact import continuum
-from planarimpact.continuum import refinement
 
 
 def test_many_impacts_are_solved_in_parts(monkeypatch):
@@ -14,24 +13,6 @@ def test_many_impacts_are_solved_in_parts(monkeypatch):
     np.testing.assert_allclose(
         continuum.rebound(x, tolerance=1e-3).velocity, whole.velocity, atol=1e-14
     )
-
-
-def test_a_path_meets_its_tolerance_at_every_instant():
-    """Here its errors fall with the square of the steps, and vanish at both ends."""
-    one = np.ones(1)
-
-    def solve(steps):
-        place = np.linspace(0.0, 1.0, steps + 1)[:, None]
-        return place, place + 100 / steps**2 * np.sin(np.pi * place)
-
-    place, found = refinement.settled_path(solve, (0, 1), (one,) * 3, one, 1e-4 * one, 2**20)
-    assert np.abs(found - place).max() <= 1e-4
-
-
-def test_extrapolation_saves_steps(monkeypatch):
-    """Where it leaves a share of the error that falls with the square of the steps, 512 are few."""
-    monkeypatch.setattr(continuum.elastic, "MOST_STEPS", 512)
-    continuum.rebound(np.linspace(0.2, 5.6, 28), tolerance=1e-4)
 
 
 def test_impacts_without_an_answer_are_all_named(monkeypatch):

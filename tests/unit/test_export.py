@@ -283,7 +283,7 @@ def test_types_pass_and_refuse_what_they_should(folder):
 def test_neither_the_code_nor_its_types_appear_alone(tmp_path):
     (tmp_path / "ball.d.ts").mkdir()
     with pytest.raises(InputError, match="ball.d.ts: it is there already, and no regular file"):
-        export.write_spheres(tmp_path / "ball.js", "js")
+        export.write_spheres(tmp_path / "ball.js", "js", tolerance=max(export.TABLES))
     assert [path.name for path in tmp_path.iterdir()] == ["ball.d.ts"]
 
 
@@ -313,42 +313,12 @@ def test_the_readme_prints_what_it_says(language, file, what, options, tmp_path,
     assert said and done.stdout.splitlines() == said
 
 
-# Changes of the README's loop for games: all digits of the peak after each impact and of the place
-# at the end; no friction; e, the steps a second and the height of the start are others.
-PEAKS = {
-    'import * as spheres from "./spheres.mjs";\n': "",
-    "position[0].toFixed(2)": "position[2] + velocity[2] ** 2 / (2 * gravity)",
-    'places.slice(0, 3).join(" "), places.length, ': "...places, position[0], ",
-    "{ body, pair } = spheres.presets.tennis_ball": "{ body } = spheres.presets.tennis_ball, "
-    "pair = { friction: 0, stiffness_ratio: 1.5, restitution: E, loss: spheres.VISCOUS }",
-    "1 / 60": "1 / STEPS",
-    "k < 600": "k < 10 * STEPS",
-    "position = [0, 0, 1]": "position = [0, 0, START]",
-}
-
-
-def test_the_loop_for_games_keeps_heights_and_comes_to_rest(folder):
+def test_the_time_step_of_the_loop_for_games_does_not_change_how_the_ball_bounces(folder):
     blocks = re.findall(r"```js\n(.*?)```", README.read_text(encoding="utf-8"), flags=re.S)
-    (loop,) = (block for block in blocks if "slow = " in block)
-    for old, new in PEAKS.items():
-        assert loop.count(old) == 1, old
-        loop = loop.replace(old, new)
-    radius = 0.0335
-    games = [(e, steps, 1.0) for steps in (30, 240) for e in (1.0, 0.9)]
-    # A ball that rests on the floor, just above it or in it stays there, or comes back to it.
-    games += [(0.1, 60, 0.1), (1.0, 60, radius), (1.0, 60, radius + 1e-6), (0.9, 60, radius - 1e-3)]
-    text = 'import * as spheres from "./coarse.mjs";\n'
-    for e, steps, start in games:
-        own = loop.replace("START", repr(start)).replace("STEPS", str(steps))
-        text += "{\n" + re.sub(r"\bE\b", repr(e), own) + "}\n"
-    paths = [np.array(line.split(), float) for line in said_by_node(folder, "loop.mjs", text)]
-    for (e, _, start), (*peaks, place, height) in zip(games, paths, strict=True):
-        assert place == pytest.approx(80, abs=1e-9)  # 8 m/s for 10 s, by no step more
-        if start == 1.0:
-            wanted = radius + (1 - radius) * e ** (2 * np.arange(1, 11))
-            np.testing.assert_allclose(peaks[:10], wanted, rtol=0, atol=1e-9)
-        else:
-            assert height == radius and peaks == pytest.approx([radius], abs=2e-6)
+    (loop,) = (block.replace("spheres.mjs", "coarse.mjs") for block in blocks if "slow = " in block)
+    assert "1 / 60;" in loop and "k < 600;" in loop
+    loops = (loop.replace("1 / 60", f"1 / {n}").replace("600", f"{10 * n}") for n in (30, 60, 240))
+    assert len({said_by_node(folder, "loop.mjs", text)[0] for text in loops}) == 1
 
 
 # Collisions -----------------------------------------------------------------------------------

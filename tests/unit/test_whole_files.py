@@ -1,5 +1,6 @@
 """Files that appear whole or not at all, whoever else writes and however the writing ends."""
 
+import errno
 import os
 
 import pytest
@@ -45,3 +46,13 @@ def test_an_error_leaves_what_was_there(path, error):
         partial.write_text("half")
         raise error
     assert path.read_text() == "earlier" and os.listdir(path.parent) == ["words.txt"]
+
+
+def test_a_folder_that_nobody_may_write_to_is_named(path, monkeypatch):
+    def refuse(folder, mode):
+        raise PermissionError(errno.EACCES, "Permission denied", folder)
+
+    monkeypatch.setattr(os, "mkdir", refuse)  # root may write everywhere
+    with pytest.raises(PermissionError) as refused, written(path):
+        pass
+    assert refused.value.filename == str(path.parent)

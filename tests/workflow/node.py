@@ -80,11 +80,3 @@ def scripts(texts):
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([node, "-e", PROGRAM], text=True, encoding="utf-8", **pipes) as process:
         yield Scripts(process, texts)
-
-
-def expression(name, old="", new=""):
-    """A script as an expression, after one change of its text."""
-    text = (FOLDER / f"{name}.js").read_text(encoding="utf-8")
-    assert old in text
-    body = text.replace(old, new, 1).replace(f"const {name} = ", "return ", 1)
-    return f"(() => {{ {body} }})()"

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from stronge1994 import paper, reference_data
+from stronge1994 import judging, paper, reference_data
 from stronge1994.settings import config as configuration
 
 ROOT = Path(__file__).parents[2]
@@ -39,12 +39,8 @@ def ledger():
 @functools.cache
 def awaited():
     """Names of the comparisons with a series of which there are no points yet."""
-
-    def waits(full):
-        return reference_data.reference(sources(), full).get("kind") == "awaited"
-
-    stated = config()["comparisons"].items()
-    return [name for name, entry in stated if "reference" in entry and waits(entry["reference"])]
+    every = checked({}).items()
+    return [name for name, one in every if getattr(one.reference, "kind", "") == "awaited"]
 
 
 def head(**other):
@@ -67,10 +63,20 @@ def head(**other):
 
 
 def checked(change, data=None, folder=ROOT):
-    """Check a change of the config as a start of Snakemake does, with other data if need be."""
+    """Comparisons of a changed config, as a start of Snakemake checks them; with other data."""
     changed = configuration.overridden(config(), change)
     with contextlib.chdir(folder):
-        configuration.check_config(changed, data or sources(), ledger())
+        return configuration.comparisons(changed, data or sources(), ledger())
+
+
+def rows_of_a_run(folder, begin, project):
+    """What a finished run would say with this folder of data/: rows whose names begin so."""
+    every = checked({}, sources() | {folder.name: reference_data.load(folder)})
+    own = [one for name, one in every.items() if name.startswith(begin)]
+    figure = begin.split("-")[0]
+    curves = project / f"results/curves/{figure}.csv"
+    rows = judging.compare(figure, curves, own, config()["significance"], {})
+    return {row["comparison"]: row for row in rows}
 
 
 class Project:

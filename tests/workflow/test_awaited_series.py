@@ -1,7 +1,7 @@
 """Whoever owns the paper can fill an awaited series by dropping in a table: tried on a copy.
 
 The points are made up from the solver's own curves, and never enter data/. These tests
-load and compare as the jobs of a run do; a whole run is in test_run.py.
+load and compare as the jobs of a run do; test_your_copy.py reads points with the mouse.
 """
 
 import shutil
@@ -10,13 +10,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from planarimpact import continuum, lumped
-from stronge1994 import reference_data, tables
-from stronge1994 import settings as figure_settings
-from stronge1994.figures.fig8 import curves as fig8
-from stronge1994.judging import compare
+from planarimpact import continuum
+from stronge1994 import tables
 from stronge1994.reference_data import Series
-from tests.workflow.project import ROOT, awaited, config, head
+from tests.workflow.project import ROOT, awaited, config, head, rows_of_a_run
 
 CONFIG = config()
 RUBBER, LEWIS = "johnson1983/rubber_sphere", "lewis_rogers1988"
@@ -45,61 +42,37 @@ PICTURE = {
 }
 
 
-@pytest.fixture(scope="module")
-def curves(inventory, tmp_path_factory):
-    """Tables of Figs 5 and 8 as the config has them: of Fig. 5 the curve that is judged."""
-    folder = tmp_path_factory.mktemp("curves")
-    x = np.linspace(0.0, 20.0, 2001)
-    rubber = CONFIG["figures"]["fig5"]["rubber"]["stiffness_ratio"]
-    w = lumped.rebound(x, CONFIG["mass_ratio"], rubber, 1.0).velocity
-    of_rubber = {"incidence [mu v2(0)]": x, "velocity [mu v2(0)]": w}
-    tables.write(folder / "fig5.csv", tables.curve(of_rubber, "lumped", "rubber"))
-    settings = figure_settings.physics(CONFIG, inventory, "fig8") | {"samples": 180}
-    tables.write(folder / "fig8.csv", fig8.curves(**settings))
-    return folder
-
-
 @pytest.fixture
-def judged(inventory, curves, tmp_path):
-    """Rows of the verdict table for the points of some series of one source, by series."""
+def judged(inventory, first_run, tmp_path):
+    """Rows of the verdict table for the points of some series of one source, by comparison."""
 
     def rows(points):
         source = min(points).split("/")[0]
-        figure = AWAITED[min(points)].split("-")[0]
-        (tmp_path / source).mkdir(exist_ok=True)
-        shutil.copy(ROOT / f"data/{source}/source.yaml", tmp_path / source)
+        shutil.copytree(ROOT / "data" / source, tmp_path / source, dirs_exist_ok=True)
         for name, (x, y) in points.items():
             known = Series(**inventory[source]["series"][name.split("/")[1]])
             table = pd.DataFrame({known.x.name: x, known.y.name: y}).to_csv(index=False)
             said = {"sigma_x": known.x.sigma, "sigma_y": known.y.sigma} | PICTURE.get(name, {})
             (tmp_path / f"{name}.csv").write_text(head(**said) + table)
-        found = inventory | {source: reference_data.load(tmp_path / source)}
-        references = figure_settings.references(CONFIG, found, figure)
-        path = curves / f"{figure}.csv"
-        entries = {AWAITED[name]: CONFIG["comparisons"][AWAITED[name]] for name in points}
-        if set(points) == {NORMAL, FRICTION}:
-            entries["ratio"] = CONFIG["comparisons"]["fig8-measured-ratio"]
-        every = compare(figure, path, entries, references, CONFIG["significance"], {})
-        return dict(zip([*points, "ratio"], every, strict=False))
+        figure = AWAITED[min(points)].split("-")[0]
+        found = rows_of_a_run(tmp_path / source, figure, first_run[0])
+        ratio = ["fig8-measured-ratio"] if len(points) > 1 else []
+        return {name: found[name] for name in (*(AWAITED[full] for full in points), *ratio)}
 
     return rows
 
 
-def line(name, curves):
-    """The curve that a series is compared with."""
-    table = tables.read(curves / f"{AWAITED[name].split('-')[0]}.csv")
-    own = tables.select(table, **CONFIG["comparisons"][AWAITED[name]]["curve"])
-    return own[list(filter(tables.is_quantity, own))[:2]].to_numpy().T
+@pytest.fixture
+def line(first_run):
+    """Function: the curve of the run that a series is compared with."""
 
+    def of(name):
+        figure = AWAITED[name].split("-")[0]
+        table = tables.read(first_run[0] / f"results/curves/{figure}.csv")
+        own = tables.select(table, **CONFIG["comparisons"][AWAITED[name]]["curve"])
+        return own[list(filter(tables.is_quantity, own))[:2]].to_numpy().T
 
-def test_nine_points_of_rubber_that_are_all_off_diverge(curves, judged):
-    """By a tenth of the largest velocity; those that scatter about the curve agree."""
-    x = np.linspace(0.5, 7.5, 9)
-    y = np.interp(x, *line(RUBBER, curves))
-    scatter = 0.02 * np.random.default_rng(3).normal(size=9)
-    for shift, verdict in ((scatter, "agrees"), (0.2, "differs"), (-0.2, "differs")):
-        row = judged({RUBBER: (x, y + shift)})[RUBBER]
-        assert (row["points"], row["verdict"]) == (9, verdict), shift
+    return of
 
 
 X = np.linspace(5.0, 80.0, 9)  # deg
@@ -110,29 +83,20 @@ RIGHT = {NORMAL: 0.876 + 0.004 * np.tile([1, -1, 0], 3), FRICTION: 0.876}
     ("factors", "off", "verdicts"),
     [
         (RIGHT, {}, "cannot tell, cannot tell, cannot tell"),
-        # A factor explains most of a shift of a force, in N.
-        ({NORMAL: 1.0}, {NORMAL: -7.0}, "cannot tell"),
-        ({FRICTION: 1.0}, {FRICTION: 1.6}, "agrees"),
         # The allowances hide what two factors of 1 and 1.15 mean, and show those of 1 and 2.
-        ({NORMAL: 1.0, FRICTION: 1.15}, {}, "cannot tell, agrees, cannot tell"),
         ({NORMAL: 1.0, FRICTION: 2.0}, {}, "cannot tell, agrees, differs"),
         # No factor explains another power of the cosine, or another friction.
-        ({NORMAL: 0.0}, {NORMAL: 82.0 - 0.91 * X}, "cannot tell"),  # a straight line
         ({NORMAL: 0.0}, {NORMAL: 93.6 * np.cos(np.radians(X)) ** 2}, "differs"),
         ({FRICTION: 0.0}, {FRICTION: 15.0 * np.sin(np.radians(2 * X))}, "differs"),
     ],
 )
 def test_forces_are_judged_by_their_shapes_and_by_the_ratio_of_both(
-    factors, off, verdicts, curves, judged
+    factors, off, verdicts, line, judged
 ):
-    y = {name: np.interp(X, *line(name, curves)) for name in factors}
+    y = {name: np.interp(X, *line(name)) for name in factors}
     points = {name: (X, factor * y[name] + off.get(name, 0.0)) for name, factor in factors.items()}
     rows = judged(points)
     assert ", ".join(row["verdict"] for row in rows.values()) == verdicts
-    assert {rows[name]["degrees of freedom"] for name in points} == {8}
-    if factors is RIGHT:
-        said = {rows[name]["note"].partition(";")[0] for name in points}
-        assert "force scaled by 0.876: 82.0 N at 0 deg, 93.6 N assumed" in said
 
 
 def continuum_says(name):
@@ -150,7 +114,7 @@ def continuum_says(name):
     return angle, friction * force * peak
 
 
-def test_the_allowance_is_what_is_known_of_the_form_of_the_model(curves, judged):
+def test_the_allowance_is_what_is_known_of_the_form_of_the_model(line, judged):
     """So points read without error do not fail a model that is known to be off by that much.
 
     Of the forces it is what a factor of each leaves, which is fitted with the same allowances.
@@ -158,8 +122,10 @@ def test_the_allowance_is_what_is_known_of_the_form_of_the_model(curves, judged)
     own = {name: CONFIG["comparisons"][AWAITED[name]]["allowance"] for name in AWAITED}
     points = {name: continuum_says(name) for name in AWAITED}
     forces = judged({name: points[name] for name in (NORMAL, FRICTION)})
-    assert {row["verdict"] for row in forces.values()} <= {"agrees", "cannot tell"}
+    (row,) = judged({RUBBER: points[RUBBER]}).values()
+    found = {row["verdict"] for row in (row, *forces.values())}
+    assert found <= {"agrees", "cannot tell"}
     x, y = points[RUBBER]
-    rms = {RUBBER: np.sqrt(np.mean((y - np.interp(x, *line(RUBBER, curves))) ** 2))}
-    rms |= {name: float(forces[name]["rms"]) for name in (NORMAL, FRICTION)}
+    rms = {RUBBER: np.sqrt(np.mean((y - np.interp(x, *line(RUBBER))) ** 2))}
+    rms |= {name: float(forces[AWAITED[name]]["rms"]) for name in (NORMAL, FRICTION)}
     assert own == {name: {"x": 0.0, "y": pytest.approx(rms[name], rel=0.05)} for name in AWAITED}

@@ -214,32 +214,6 @@ def test_the_head_of_the_page_names_all_that_is_wrong_by_cause(rows, tmp_path):
     assert order == sorted(order, key=list(ledger_table.GRADES).index)
 
 
-ARTICLE = """its where wrong sign or misprint no longer holds eq its problem
-Printed: its says. Corrected: its correction. Derivation, cause, where it holds, reading, why not
-testable, test Derivation: its derivation. Cause: its because. Where it holds: its range. Reading:
-its reading. Why not testable: its why. Test: its test Found: its found. The its kind is right if
-this is its confirms. The corrected formula is off by its corrected. Code: its code"""
-
-
-def test_the_page_has_every_entry_and_all_columns_of_an_entry(first_run, rows, tmp_path):
-    page = (first_run[0] / "figures/ledger.html").read_text()
-    assert re.findall('<article id="([^"]*)', page) == list(rows) == list(ENTRIES)
-    row = {column: f"its {column}" for column in ledger_table.COLUMNS} | {
-        "entry": "eq",
-        "holds": "no",
-    }
-    row |= {"verdict": "wrong", "grade": "sign or misprint", "only_if": ""}
-    head, article = page_of([row], tmp_path).read_text().split('<article id="eq"')
-    assert flat(article.partition(">")[2].split("</article>")[0]) == flat(ARTICLE)
-    assert "nolongerholdseq" in flat(head)
-    # The impact that a link shows is the one of which its words tell.
-    state = r"angle=(.*?)&friction=(.*?)&restitution=(.*?)&poisson_ratio=0.3&mass_ratio=3.5&view"
-    links = re.findall(rf'{state}.*?"(.*?)</p>', page, flags=re.S)
-    assert len(links) == sum(bool(entry.explorer) for entry in ENTRIES.values()) > 9
-    for angle, mu, e, words in links:
-        assert flat("<a" + words).endswith(f"at{angle}°,μ={mu}ande={e}.")
-
-
 @pytest.fixture(scope="module")
 def articles(first_run):
     """Entries of the page of a run: what is seen at once, and what is folded."""
@@ -248,16 +222,36 @@ def articles(first_run):
     return {name: parts for name, *parts in found}
 
 
-def test_printed_and_corrected_stand_side_by_side_where_the_paper_is_wrong(articles):
-    wrong = {name for name, entry in ENTRIES.items() if entry.verdict == "wrong"}
-    assert {name for name, (seen, _) in articles.items() if 'class="sides"' in seen} == wrong
-    for name in wrong:
-        sides = flat(articles[name][0].partition('class="sides">')[2])
-        stated = [
-            flat(mathematical(text))
-            for text in (ENTRIES[name].says, ENTRIES[name].words["correction"])
-        ]
-        assert sides.startswith(f"Printed:{stated[0]}.Corrected:{stated[1].rstrip('.')}.")
+def test_the_page_has_every_entry_whole(rows, articles):
+    """What is seen at once, printed and corrected side by side, and what is folded."""
+    assert list(articles) == list(rows) == list(ENTRIES)
+    maths, later = ledger_page.linked_maths(ENTRIES), [*ledger_page.FOLDED, "test", "confirms"]
+    for name, (seen, folded) in articles.items():
+        row = rows[name]
+        assert ('class="sides"' in seen) == (row["verdict"] == "wrong")
+        sides = f"Printed: {row['says']}. Corrected: {row['correction']}"
+        at_once = [row["where"], row["grade"], sides if row["correction"] else row["says"]]
+        at_once.append("" if row["only_if"] else row["verdict"])
+        for part, texts in (
+            (seen, at_once),
+            (folded, [row[key] for key in (*later, "corrected", "code")]),
+        ):
+            told = flat(part)
+            assert [one for one in texts if flat(maths(one.rstrip("."))) not in told] == [], name
+
+
+def test_an_entry_that_no_longer_holds_says_so_and_links_show_what_their_words_tell(
+    first_run, rows, tmp_path
+):
+    row = rows["eq-25"] | {"holds": "no", "problem": "its problem"}
+    head, article = page_of([row], tmp_path).read_text("utf-8").split('<article id="eq-25"')
+    assert "nolongerholdsEq.25" in flat(head) and "itsproblem" in flat(article)
+    page = (first_run[0] / "figures/ledger.html").read_text("utf-8")
+    state = r"angle=(.*?)&friction=(.*?)&restitution=(.*?)&poisson_ratio=0.3&mass_ratio=3.5&view"
+    links = re.findall(rf'{state}.*?"(.*?)</p>', page, flags=re.S)
+    assert len(links) == sum(bool(entry.explorer) for entry in ENTRIES.values()) > 9
+    for angle, mu, e, words in links:
+        assert flat("<a" + words).endswith(f"at{angle}°,μ={mu}ande={e}.")
 
 
 def test_what_is_right_only_under_a_condition_says_so_and_is_not_green(first_run, rows, articles):

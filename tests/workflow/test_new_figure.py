@@ -18,7 +18,7 @@ def test_a_figure_of_the_readme_is_drawn_and_judged_alone(fresh):
         (fresh / path).parent.mkdir(parents=True, exist_ok=True)
         (fresh / path).write_text(content)
     result = fresh.run("fig10")
-    assert result.returncode == 0 and "Every result is as accepted." in result.stdout
+    assert result.returncode == 0 and "New: nobody has accepted fig10-line yet." in result.stdout
     verdicts = tables.read_rows(fresh / "results/verdicts/fig10.csv")
     assert {r["verdict"] for r in verdicts if r["comparison"] == "fig10-line"} == {"passed"}
     assert (fresh / "figures/fig10.svg").stat().st_size > 1000

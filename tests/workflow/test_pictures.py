@@ -22,7 +22,7 @@ from stronge1994.figures.shared import drawing as drawings
 from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.names import home, is_of_paper
 from stronge1994.settings import figures
-from tests.workflow.project import config, sources
+from tests.workflow.project import checked, config, sources
 
 PAPER = [figure for figure in figures.stated() if is_of_paper(figure)]
 # Curves of the paper's figures that are only compared, as patterns; and one that is an area.
@@ -39,7 +39,7 @@ def given(first_run):
 
     def of(figure):
         project, _ = first_run
-        settings = figure_settings.of_figure(config(), sources(), figure)["drawing"]
+        settings = figure_settings.of_figure(config(), sources(), checked({}), figure)["drawing"]
         points = drawings.references(settings["overlays"])
         module = importlib.import_module(f"stronge1994.{home(figure)}.{figure}.drawing")
         curves = tables.read(project / f"results/curves/{figure}.csv")
@@ -261,6 +261,23 @@ def test_times_against_the_batch_are_those_of_the_finest_setting(given, order):
     finest = rows.loc[fineness.groupby(rows["model"]).idxmax()].filter(regex="^time")
     wanted = {tuple(row.dropna()) for _, row in finest.iterrows()}
     assert {tuple(line.get_ydata()) for line in axes.lines} <= wanted and len(axes.lines) == 5
+
+
+def test_the_rod_is_hatched_at_the_tilts_at_which_each_contact_jams(drawn):
+    curves, picture = drawn("rod")
+    ticks = dict(zip(("lumped", "rigid"), picture.axes[0].get_yticklabels()[1:], strict=True))
+    assert [tick.get_text() for tick in ticks.values()] == ["jams", "rigid: jams"]
+    jamming = set()
+    columns = tables.each(curves, "velocity_ratio", variant="")
+    for axes, (_, own) in zip(picture.axes, columns, strict=False):
+        bars = [bar for bar in axes.collections if bar.get_hatch()]
+        boxes = [path.get_extents() for bar in bars for path in bar.get_paths()]
+        for model, tick in ticks.items():
+            row = [box for box in boxes if box.y0 < tick.get_position()[1] < box.y1]
+            for tilt, jams in tables.select(own, model=model)[["tilt [deg]", "jams [1]"]].values:
+                assert any(box.x0 <= tilt <= box.x1 for box in row) == jams, (model, tilt)
+                jamming |= {model} if jams else set()
+    assert jamming == {*ticks}
 
 
 # Parts that the drawings share

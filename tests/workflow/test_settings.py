@@ -57,9 +57,9 @@ def test_a_setting_that_is_allowed_is_drawn_and_judged(
     whole = reference_data.load_yaml(configuration.FILE)  # as a user has it, short
     quick = {"figures": {name: _quick(figures.values(figures.stated()[name]["settings"]))}}
     config = configuration.overridden(configuration.complete(whole | quick), change)
-    configuration.check_config(config, inventory, ledger())
-    own = figure_settings.of_figure(config, inventory, name)
-    judged = figure_settings.of_judgement(config, inventory, name)["settings"]
+    comparisons = configuration.comparisons(config, inventory, ledger())
+    own = figure_settings.of_figure(config, inventory, comparisons, name)
+    judged = figure_settings.of_judgement(config, comparisons, name)["settings"]
     curves = str(tmp_path / "curves.csv")
     try:
         with warnings.catch_warnings():
@@ -72,6 +72,6 @@ def test_a_setting_that_is_allowed_is_drawn_and_judged(
     pictures["svg"] = str(tmp_path / "a.svg")
     drawings.draw(name, own["drawing"], curves, pictures)
     rows = judging.compare(name, curves, **judged)
-    assert [row["comparison"] for row in rows] == list(judged["comparisons"])
+    assert [row["comparison"] for row in rows] == [one.name for one in judged["comparisons"]]
     assert all(row["reason"] for row in rows)
     assert [row["note"] for row in rows if row["verdict"] == "FAILS"] == []

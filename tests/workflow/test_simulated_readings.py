@@ -34,11 +34,3 @@ def test_a_right_print_does_not_fail_and_one_that_is_five_per_cent_off_does(colu
 def test_without_the_error_of_the_marks_right_prints_would_fail(monkeypatch):
     monkeypatch.setattr(Calibration, "shifts", lambda self, places, _: np.zeros((0, len(places))))
     assert verdicts(("markers", 30), 40)[Verdict.DIFFERS] > 8
-
-
-@pytest.mark.parametrize("factor", [1.0, 1.15])
-def test_friction_that_is_too_high_for_its_normal_force_fails_and_nothing_else(factor):
-    series = "stronge1994/fig8_friction"
-    found = simulated_readings.whole_run(5, {series: factor}.items())
-    failed = {name for name, verdict in found.items() if verdict == Verdict.DIFFERS}
-    assert failed == ({"fig8-printed-curve-ratio"} if factor > 1 else set())

@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from stronge1994 import judging, reference_data
+from stronge1994.judging.comparisons import Comparison
 from stronge1994.settings.figures import expanded
 from tests.workflow.project import ROOT
 
@@ -70,8 +71,8 @@ def test_a_stranger_adds_a_model_and_a_series_and_sees_them_judged(typed):
     assert "    each: {model: *models}\n" in text
     (folder / "figure.yaml").write_text(text.replace("    each: {model: *models}\n", known))
     ((name, entry),) = reference_data.load_yaml(folder / "figure.yaml")["comparisons"].items()
-    source = reference_data.load(project / "data/marble")
-    references = {"marble/rebound": source["series"]["rebound"]}
-    table = project / "results/curves/marble.csv"
-    rows = judging.compare("marble", table, dict(expanded(name, entry)), references, 0.001, {})
+    found = {"marble": reference_data.load(project / "data/marble")}
+    known = reference_data.reference(found, entry["reference"])
+    every = [Comparison(own, **one | {"reference": known}) for own, one in expanded(name, entry)]
+    rows = judging.compare("marble", project / "results/curves/marble.csv", every, 0.001, {})
     assert [row["verdict"] for row in rows] == ["cannot tell", "differs"]

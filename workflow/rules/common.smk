@@ -41,9 +41,9 @@ try:
 
     SOURCES = reference_data.load_all("data")
     ENTRIES = paper.entries(SOURCES["stronge1994"]["facts"])
-    configuration.check_config(config, SOURCES, ENTRIES)
-    FIGURES = {name: settings.of_figure(config, SOURCES, name) for name in config["figures"]}
-    JUDGED = {name: settings.of_judgement(config, SOURCES, name) for name in configuration.judged(config)}
+    COMPARISONS = configuration.comparisons(config, SOURCES, ENTRIES)
+    FIGURES = {name: settings.of_figure(config, SOURCES, COMPARISONS, name) for name in config["figures"]}
+    JUDGED = {name: settings.of_judgement(config, COMPARISONS, name) for name in configuration.judged(config)}
 except (reference_data.SourceError, ledger_table.EntryError) as error:
     raise WorkflowError(str(error))
 
@@ -72,7 +72,8 @@ def files(*patterns):
     return sorted(str(path) for path in paths if path.suffix not in (".pyc", ".md") and path.name[0] != ".")
 
 
-COMMON = files("src/planarimpact/*.py", "src/planarimpact/common/*", "src/stronge1994/*.py")
+JOB = ["workflow/scripts/job.py"]  # what each rule does
+COMMON = JOB + files("src/planarimpact/*.py", "src/planarimpact/common/*", "src/stronge1994/*.py")
 COMMON += files(
     "src/stronge1994/figures/*.py", "src/stronge1994/studies/*.py", "src/stronge1994/reference_data/*"
 )
@@ -80,11 +81,9 @@ PACKAGE = files("src/planarimpact/**/*")
 SOLVER = [*PACKAGE, "environment.txt"]  # another version of a package solves again
 SOLVING = [*SOLVER, *COMMON, *files("src/stronge1994/printed/*", "src/stronge1994/figures/shared/curves/*")]
 DRAWING = [*COMMON, *files("src/stronge1994/figures/shared/drawing/*")]
-JUDGING = [
-    *COMMON,
-    *files("src/stronge1994/judging/*", "src/stronge1994/paper/*", "src/stronge1994/printed/*"),
-]
-WRITING = [*DRAWING, *JUDGING, *files("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
+JUDGING = [*COMMON, *files("src/stronge1994/judging/*")]
+PAPER_LEDGER = files("src/stronge1994/paper/*", "src/stronge1994/printed/*")
+WRITING = [*DRAWING, *JUDGING, *PAPER_LEDGER, *files("src/stronge1994/settings/*", "src/stronge1994/pages/*")]
 WRITING += files("src/stronge1994/explorer/*")
 
 
@@ -93,16 +92,6 @@ def of_folder(without):
     return lambda wildcards: [
         path for path in files(f"{figures.folder_of(wildcards.figure)}/*.py") if Path(path).name != without
     ]
-
-
-def of_figure(part):
-    """A part of `settings.of_figure`: settings of curves and drawing; and files of data/, `tables` to solve and `series` to draw."""
-    return lambda wildcards: FIGURES[wildcards.figure][part]
-
-
-def of_judged(part):
-    """A part of `settings.of_judgement`: settings, the `table` of curves or of a scene, and `series` of data/ to compare."""
-    return lambda wildcards: JUDGED[wildcards.judged][part]
 
 
 def made(names):
@@ -122,7 +111,7 @@ def made(names):
 
 def rows_of(names):
     """Names of the comparisons of some figures or scenes."""
-    return [title for name in names for title in JUDGED[name]["settings"]["comparisons"]]
+    return [one.name for name in names for one in settings.of(COMPARISONS, name)]
 
 
 def priority(wildcards):

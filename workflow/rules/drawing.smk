@@ -2,13 +2,13 @@
 IN_REPORT = {"category": "Figures", "labels": {"figure": "{figure}"}, "caption": "../report/figure.rst"}
 
 
-rule draw:
+use rule job as draw with:
     """Draw one figure from its curves; never solves."""
     input:
-        code=["workflow/scripts/draw.py", *DRAWING],
+        code=DRAWING,
         own=of_folder(without="curves.py"),
         curves="results/curves/{figure}.csv",
-        series=of_figure("series"),
+        series=lambda wildcards: FIGURES[wildcards.figure]["series"],
     output:
         svg=report("figures/{figure}.svg", **IN_REPORT),
         png="figures/{figure}.png",
@@ -17,12 +17,8 @@ rule draw:
     wildcard_constraints:
         figure="|".join(figure for figure in FIGURES if figure not in SLIDES) or "none",
     priority: priority
-    conda:
-        "../envs/planarimpact.yaml"
     params:
-        settings=of_figure("drawing"),
-    script:
-        "../scripts/draw.py"
+        settings=lambda wildcards: FIGURES[wildcards.figure]["drawing"],
 
 
 use rule draw as draw_with_slide with:

@@ -1,18 +1,15 @@
 # Pages show what the tables of a run say. Each includes these beside its own template.
 EVERY_PAGE = ["workflow/report/theme.css", "workflow/report/site.html", "workflow/report/page.css"]
-SERIES = {
-    f"{source}/{name}": series
-    for source, entry in SOURCES.items()
-    for name, series in entry.get("series", {}).items()
-}
+NAMED = [f"{source}/{name}" for source in SOURCES for name in SOURCES[source].get("series", {})]
+SERIES = {name: reference_data.reference(SOURCES, name) for name in NAMED}
 # Pictures of prints under our curves, saved beside what was read there.
-OVERLAYS = {name: series["overlay"] for name, series in SERIES.items() if series.get("overlay")}
+OVERLAYS = {name: series.overlay for name, series in SERIES.items() if series.overlay}
 
 
-rule report:
+use rule job as report with:
     """The run as pages: the report, its sources and settings, the ledger of the paper."""
     input:
-        code=["workflow/scripts/write_report.py", *SOLVER, *WRITING],
+        code=[*SOLVER, *WRITING],
         ledger="results/ledger.csv",
         accepted=ACCEPTED,
         verdicts="results/verdicts.csv",
@@ -30,8 +27,6 @@ rule report:
         which_model=report("results/which_model.csv", category="Tables", caption="../report/which_model.rst"),
     log:
         "results/logs/report.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         # A function, as Snakemake takes braces in a text for a wildcard: those of formulas.
         settings=lambda _: {
@@ -44,8 +39,6 @@ rule report:
             "rows": rows_of(JUDGED),
             "grades": GRADES,
         },
-    script:
-        "../scripts/write_report.py"
 
 
 # What a lecture, or a check of its texts, reads.
@@ -55,10 +48,10 @@ READ_BY = {
 }
 
 
-rule lecture:
+use rule job as lecture with:
     """Run one lecture, with the checks of what its texts state, and write its pages."""
     input:
-        code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
+        code=[*SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
         tables=lambda wildcards: READ_BY.get(wildcards.notebook, []),
         style="workflow/notebooks/lecture.mplstyle",
@@ -74,16 +67,12 @@ rule lecture:
     log:
         "results/logs/lecture_{notebook}.log",
     priority: 1  # as it is long
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/run_lecture.py"
 
 
-rule explorer:
+use rule job as explorer with:
     """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
-        code=["workflow/scripts/write_explorer.py", *SOLVER, *WRITING],
+        code=[*SOLVER, *WRITING],
         sources=files("workflow/explorer/*.*"),
         start="workflow/report/index.html",
         parts=EVERY_PAGE,
@@ -92,18 +81,14 @@ rule explorer:
         start="figures/index.html",
     log:
         "results/logs/explorer.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         settings=lambda _: settings.of_explorer(config),
-    script:
-        "../scripts/write_explorer.py"
 
 
-rule your_copy:
+use rule job as your_copy with:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
-        code=["workflow/scripts/write_your_copy.py", *WRITING],
+        code=WRITING,
         sources=files("workflow/your_copy/**/*.*", "workflow/explorer/files.js"),
         curves=expand("results/curves/{figure}.csv", figure=PAPER),
         parts=EVERY_PAGE,
@@ -111,45 +96,34 @@ rule your_copy:
         page="figures/your_copy.html",
     log:
         "results/logs/your_copy.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
-        figures=PAPER,
-        series=lambda _: SERIES,
-        allowances=lambda _: {
-            entry["reference"]: entry["allowance"]
-            for entry in config["comparisons"].values()
-            if "allowance" in entry
+        settings=lambda _: {
+            "series": SERIES,
+            "allowances": {
+                one.reference.name: [one.allowed("x"), one.allowed("y")]
+                for one in COMPARISONS.values()
+                if one.allowance
+            },
+            "significance": config["significance"],
         },
-        significance=lambda _: config["significance"],
-    script:
-        "../scripts/write_your_copy.py"
 
 
-# All that a job of these takes from the project.
-LOGGING = files("src/stronge1994/__init__.py", "src/stronge1994/logs.py")
-
-
-rule wheel:
+use rule job as wheel with:
     """The solver as one file, which lies beside the notebooks of students, who install it."""
     input:
-        code=["workflow/scripts/build_wheel.py", *LOGGING],
+        code=JOB,
         packages="environment.txt",
         source=[*PACKAGE, "src/planarimpact/README.md", "pyproject.toml", "LICENSE"],
     output:
         f"figures/{WHEEL}",
     log:
         "results/logs/wheel.log",
-    conda:
-        "../envs/planarimpact.yaml"
-    script:
-        "../scripts/build_wheel.py"
 
 
-rule lite:
+use rule job as lite with:
     """A web site on which the notebooks of students run in the browser. No part of `all`: it needs JupyterLite."""
     input:
-        code=["workflow/scripts/build_lite.py", *LOGGING],
+        code=JOB,
         packages="workflow/envs/lite.txt",
         files=[
             *rules.wheel.output,
@@ -161,12 +135,8 @@ rule lite:
         directory("results/lite"),
     log:
         "results/logs/lite.log",
-    conda:
-        "../envs/planarimpact.yaml"
     params:
         pyodide_url=config["lite"]["pyodide_url"],
-    script:
-        "../scripts/build_lite.py"
 
 
 PAGES = [

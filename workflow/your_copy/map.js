@@ -84,7 +84,7 @@ const maps = (() => {
   // The map for marks {x, y, u, v}, values on axes of this range and pixels; or why there is none: {refused}.
   function fit(marks, range, is_scan) {
     if (marks.length < 3) {
-      return { refused: `Set ${3 - marks.length} more of the marks: four or more are needed, three of a flat-bed scan.` };
+      return { refused: `Set ${3 - marks.length} more of the marks: four or more are needed, three for a flat-bed scan.` };
     }
     const [mid, half] = [1, -1].map((sign) => range.map(([low, high]) => (high + sign * low) / 2));
     const scaled = (point) => point.map((one, i) => (one - mid[i]) / half[i]);

@@ -7,6 +7,7 @@ const readings = (() => {
   const SAME_CLICK = 0.05; // px
   const MOST_OF_LINE = 15; // points: between nearer ones a draughtsman's errors are alike
   const BEYOND_ENDS = 10; // scales by which a curve is continued, as by the run
+  const STEPS = 10; // in which a free scale is fitted
   // What the run refuses, too. Letters are those of all alphabets, as in Python.
   const PLACEHOLDER = new RegExp(`^(?:${DATA.refused.placeholder.replace("\\W", "[^\\p{L}\\p{N}_]")})$`, "iu");
   const round = (value, digits) => Number(value.toPrecision(digits));
@@ -67,7 +68,7 @@ const readings = (() => {
   }
 
   // What the run takes for the distance of a point from a curve, if both axes have these scales: how far the nearest
-  // place of the curve is, this place, and how much the distance changes with x and with y of the point.
+  // place of the curve is, `size` with a sign, this place, and how much that changes with x and with y of the point.
   function nearest({ x, y }, point, scales) {
     const scaled = (place) => place.map((one, i) => one / scales[i]);
     const from = (a, b) => [b[0] - a[0], b[1] - a[1]];
@@ -85,12 +86,31 @@ const readings = (() => {
     const gap = from(place, at);
     const size = far * (Math.sign(maps.dot(gap, across)) || 1);
     const direction = scaled(far > 1e-9 ? gap.map((one) => one / size) : across);
-    return { far, place: place.map((one, i) => one * scales[i]), direction };
+    return { far, size, place: place.map((one, i) => one * scales[i]), direction };
   }
 
   // The error of a curve that the run would notice nine times of ten, as a share of its y; of its x, if the scale
-  // of y is free. The points share the errors of the map, and of a draughtsman.
+  // of y is free: then the curve has the scale that fits best, by the steps of `judging/scales.py`. The points share
+  // the errors of the map, and of a draughtsman.
   function noticed(map, found, curve, allowance, is_free) {
+    let at = seen_at(map, found, curve, allowance);
+    for (let [step, factor] = [0, 1]; is_free && step < STEPS; step += 1) {
+      factor *= 1 + at.product(at.larger, at.far) / at.product(at.larger, at.larger);
+      at = seen_at(map, found, { x: curve.x, y: curve.y.map((one) => factor * one) }, allowance);
+    }
+    const { product, wider, larger } = at;
+    const whole = product(larger, larger);
+    const seen = is_free ? product(wider, wider) - product(wider, larger) ** 2 / whole : whole;
+    const degrees = found.points.length - (is_free ? 1 : 0);
+    const { of_line: known, of_points: estimated } = DATA.noncentrality;
+    const row = estimated[Math.min(degrees, estimated.length) - 1];
+    const limit = found.width ? known[degrees - 1]
+      : row?.[Math.min((found.values - 4) / 2 - degrees, row.length - 1)];
+    return Math.sqrt((limit ?? Infinity) / seen);
+  }
+
+  // How far points are from a curve, how much that changes with its width and size, and the product by S^-1 of the run.
+  function seen_at(map, found, curve, allowance) {
     const sigmas = found.sigmas.map((one, i) => Math.hypot(one, allowance[i]));
     const near = found.points.map((point) => nearest(curve, map.to_axes(point), sigmas));
     const shifts = near.map(({ place, direction }) => maps.times(maps.transposed(map.shifts(place)), direction));
@@ -99,14 +119,7 @@ const readings = (() => {
       Number(i === k) + maps.dot(a, maps.times(covariance, b)) + (found.width ? 1 : 0))));
     const [wider, larger] = [0, 1].map((i) => near.map(({ place, direction }) => place[i] * direction[i]));
     const product = (a, b) => maps.dot(a, maps.times(weights, b));
-    const whole = product(larger, larger);
-    const seen = is_free ? product(wider, wider) - product(wider, larger) ** 2 / whole : whole;
-    const degrees = near.length - (is_free ? 1 : 0);
-    const { of_line: known, of_points: estimated } = DATA.noncentrality;
-    const row = estimated[Math.min(degrees, estimated.length) - 1];
-    const limit = found.width ? known[degrees - 1]
-      : row?.[Math.min((found.values - 4) / 2 - degrees, row.length - 1)];
-    return Math.sqrt((limit ?? Infinity) / seen);
+    return { far: near.map(({ size }) => size), wider, larger, product };
   }
 
   // Why a file would be refused; empty if it would not be.

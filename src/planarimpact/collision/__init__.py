@@ -5,7 +5,7 @@ stiffness, and what takes the energy. `scene` solves tables of impacts by the sa
 also decide which model answers (`methods`): a formula where it is exact, the table of spheres where
 it covers the impact, or the continuum, solved. `mechanics` has the vectors, `pairs`
 what materials do, `one_impact` one impact, `facts` what is computed when it is asked for,
-`model_form` what the other loss would change, `off_centre` bodies that strike off their centre.
+`off_centre` bodies that strike off their centre.
 
 Bodies touch at one point, and the line of their centres of mass is the normal there, but for bodies
 with an offset. A body whose radius of gyration is not the same about every axis must turn about an
@@ -18,7 +18,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,18 +25,18 @@ from numpy.typing import NDArray
 from planarimpact import bodies, models
 from planarimpact.bodies import Body
 from planarimpact.collision import methods, off_centre, one_impact
-from planarimpact.collision.facts import Facts, in_shape
+from planarimpact.collision.facts import Facts, cautions, in_shape, model_forms
 from planarimpact.collision.mechanics import (
     Impacts,
     State,
     after,
+    energies_lost,
     impacts,
     problems,
     problems_of_normals,
     taken,
 )
 from planarimpact.collision.methods import TOLERANCE as TOLERANCE
-from planarimpact.collision.methods import Answers
 from planarimpact.collision.pairs import RESTITUTION_FROM as RESTITUTION_FROM
 from planarimpact.collision.pairs import Pair
 from planarimpact.collision.presets import Preset, presets
@@ -104,7 +103,9 @@ class Collision:
     @cached_property
     def model(self) -> NDArray[np.str_]:
         """Name of the model that answered, as in `scene`; "no impact" where there is none."""
-        return self._facts().model()
+        facts = self._facts()
+        names = *(method.model for method in methods.METHODS), *facts.asked, "no impact"
+        return np.array(names)[facts.whole(facts.place, -1)]
 
     @cached_property
     def model_form(self) -> Array:
@@ -114,7 +115,12 @@ class Collision:
         where nothing is known, or where the continuum would have to be solved and may not be. It
         takes as long as `collide` with the other loss when it is first asked for.
         """
-        return self._facts().model_form()
+        facts = self._facts()
+        if facts.form is not None:
+            return facts.form
+        velocity = facts.impacts.v1 + facts.change
+        form = model_forms(facts.impacts, facts.place, velocity, facts.solve)
+        return facts.whole(form, np.nan)
 
     @cached_property
     def caution(self) -> Integers | Caution:
@@ -129,7 +135,10 @@ class Collision:
         >>> collide(steel, [0, 0, 1], ball, [1.0, 0, -1.0], [0, 0, 0]).caution
         <Caution.FRICTION|DISSIMILAR: 6>
         """
-        return self._facts().caution()
+        facts = self._facts()
+        codes = cautions(facts.impacts, facts.place, facts.regime, facts.spared)
+        codes = facts.whole(codes, 0)
+        return codes if codes.ndim else Caution(int(codes))
 
     @cached_property
     def energy_lost(self) -> Array:
@@ -138,7 +147,9 @@ class Collision:
         Along the normal the loss takes it. Along the surface friction takes it, and with viscous or
         plastic loss also the material.
         """
-        return self._facts().energy_lost()
+        facts = self._facts()
+        lost = facts.energies or energies_lost(facts.impacts, facts.change)
+        return facts.whole(np.array(lost), 0.0)
 
 
 def collide(
@@ -179,10 +190,9 @@ def collide(
         beginning with "continuum" have it. The default is that of the table of spheres:
         about a microsecond an impact in an array, some tens of them for one alone, and tens of
         milliseconds for the first one, as the table is read.
-        Impacts for which the table is too coarse, or which it does not cover (e below 0.1, with
-        plastic loss 0.3; m2/m1 over zeta^2 beyond 1.1 to 3.5; zeta^2 above 3.5), take milliseconds
-        each in a batch of hundreds, alone 0.1 to 0.3 s, and at mass ratios of hundreds up to
-        seconds; `continuum.rebound` says what it can meet.
+        Impacts for which the table is too coarse, or which it does not cover (`spheres.covers`),
+        take milliseconds each in a batch of hundreds, alone 0.1 to 0.3 s, and at mass ratios of
+        hundreds up to seconds; `continuum.rebound` says what it can meet.
     model : str or Model, optional
         A name of `planarimpact.models.MODELS`, or a Model of your own, that answers in place of the
         cheapest one within the tolerance: "lumped.hysteretic" is the paper's, "rigid" has no
@@ -195,8 +205,8 @@ def collide(
         Of bodies that strike off their centre: the part along the surface of the way from the
         centre of mass to the point of contact [m]; the radius is the part along the normal. All
         motion must be in the plane of offset and normal. See `collision.off_centre`: the model is
-        "lumped.hysteretic", "lumped.unloading-stiffness" or "rigid", and the first one if it is
-        left out and the pair has e = 1 or a loss of this name.
+        "rigid" or a lumped one without dashpots; if it is left out, that of the pair's loss, and at
+        e = 1 "lumped.hysteretic".
 
     Returns
     -------
@@ -298,13 +308,13 @@ def _collide_arrays(
     if plane:
         plane = taken(plane, approach, given.v2.size)
         answer, impulses, energies = off_centre.answers(met, plane, model)
-        states = off_centre.after(met, plane, impulses)
+        state, other_state, impulse = off_centre.after(met, plane, impulses)
     else:
         if model:
             answer = methods.answers_of(model, met, tolerance)
         else:
             answer = methods.answers(met, tolerance, solve=solve)
-        states = after(met, answer.change)
+        state, other_state, impulse = after(met, answer.change)
     _refuse(answer.refused, shape, approach)
     for i, problem in answer.unsolved.items():
         raise Unsolved(f"{_place(approach[i], shape)}{problem}", approach[[i]])
@@ -323,7 +333,20 @@ def _collide_arrays(
         energies,
         solve=solve,
     )
-    return _collision(given, met, answer, states, whole, facts)
+    regime = whole(answer.regime, Regime.NO_IMPACT)
+    return Collision(
+        velocity=whole(state.velocity, given.before.velocity),
+        spin=whole(state.spin, given.before.spin),
+        other_velocity=whole(other_state.velocity, given.other_before.velocity),
+        other_spin=whole(other_state.spin, given.other_before.spin),
+        impulse=whole(impulse, 0.0),
+        incidence=whole(met.incidence_of(np.arange(met.v1.size)), np.nan),
+        restitution=whole(met.restitution, np.nan),
+        error_bound=whole(answer.error, np.nan),
+        regime=regime if regime.ndim else Regime(int(regime)),
+        loss_code=whole(met.loss_code, -1),
+        _facts=facts,
+    )
 
 
 def _refuse_types(pair: Pair, body: Body, other: Body) -> None:
@@ -375,29 +398,3 @@ def _place(index: int, shape: tuple[int, ...]) -> str:
     """Which impact a message is about, by its index in arrays of this shape."""
     where = ", ".join(map(str, np.unravel_index(index, shape)))
     return f"impact [{where}]: " if shape else ""
-
-
-def _collision(
-    given: Impacts,
-    met: Impacts,
-    answer: Answers,
-    states: tuple[State, State, Array],
-    whole: Callable[..., Any],
-    facts: Callable[[], Facts],
-) -> Collision:
-    """The result: states after the impacts, and those that stay as they are."""
-    state, other_state, impulse = states
-    regime = whole(answer.regime, Regime.NO_IMPACT)
-    return Collision(
-        velocity=whole(state.velocity, given.before.velocity),
-        spin=whole(state.spin, given.before.spin),
-        other_velocity=whole(other_state.velocity, given.other_before.velocity),
-        other_spin=whole(other_state.spin, given.other_before.spin),
-        impulse=whole(impulse, 0.0),
-        incidence=whole(met.incidence_of(np.arange(met.v1.size)), np.nan),
-        restitution=whole(met.restitution, np.nan),
-        error_bound=whole(answer.error, np.nan),
-        regime=regime if regime.ndim else Regime(int(regime)),
-        loss_code=whole(met.loss_code, -1),
-        _facts=facts,
-    )

@@ -1,6 +1,9 @@
-"""What an answer does not have at once: computed when somebody asks a `Collision` for it.
+"""What an answer does not have at once: `Collision` computes it when somebody asks for it.
 
-That is the model by its name, the model form, the caution, and the energy that is lost.
+**Model form** is how far the answer would move if the energy were lost in the other way. A
+coefficient of restitution says how much normal energy is lost, not how. `continuum` has two ways,
+viscous and plastic. The difference of their velocities at separation is no error of a solver: no
+tolerance makes it smaller, only knowledge of the material does.
 """
 
 from __future__ import annotations
@@ -10,74 +13,60 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from planarimpact import bodies
-from planarimpact.collision import mechanics, methods
+from planarimpact import bodies, continuum
+from planarimpact.collision import methods
 from planarimpact.collision.mechanics import Impacts
-from planarimpact.collision.model_form import model_forms
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.cautions import Caution
+from planarimpact.common.losses import CODES, PLASTIC, VISCOUS
 from planarimpact.common.results import Regime
 
-# By the place of a method; then the name of a model that was asked for, and of no impact.
-MODELS = tuple(method.model for method in methods.METHODS)
-NO_IMPACT = "no impact"
+# Tolerance of the continuum with the other loss, mu v2(0): two digits of the difference suffice.
+FORM_TOLERANCE = 1e-2
 
 
 class Facts(NamedTuple):
-    """Impacts with their answers, and how their values get the shape of the arguments.
+    """Impacts with their answers, and how their values get the shape of the arguments."""
 
-    Attributes
-    ----------
-    whole : callable
-        Of values, shape (n,), and a value where bodies do not approach: in the shape of arguments.
-    impacts : Impacts
-        It needs no vectors.
-    place, change, regime : ndarray, shape (n,)
-        As in `methods.Answers`.
-    asked : tuple of str
-        Names of the models that were asked for.
-    spared : Caution
-        Those that do not concern the model that was asked for.
-    energies : tuple of ndarray, shape (n,), or None
-        Lost along the normal and along the surface [J], where `mechanics` does not know it.
-    form : ndarray or None
-        The model form, in its shape, where it is known already.
-    solve : bool
-        Whether the continuum may be solved for it.
-    """
-
+    # Of values, shape (n,), and a value where bodies do not approach: in the shape of arguments.
     whole: Callable[[Any, Any], Any]
-    impacts: Impacts
-    place: Integers
+    impacts: Impacts  # without vectors
+    place: Integers  # this and the next two as in `methods.Answers`
     change: Array
     regime: Integers
-    asked: tuple[str, ...] = ()
-    spared: Caution = Caution.NONE
+    asked: tuple[str, ...] = ()  # names of the models that were asked for
+    spared: Caution = Caution.NONE  # those that do not concern the model that was asked for
+    # Lost along the normal and along the surface [J], where `mechanics` does not know it.
     energies: tuple[Array, Array] | None = None
-    form: Array | None = None
-    solve: bool = True
+    form: Array | None = None  # the model form, in its shape, where it is known already
+    solve: bool = True  # whether the continuum may be solved for it
 
-    def model(self) -> Any:
-        """Names of the models that answered."""
-        return np.array([*MODELS, *self.asked, NO_IMPACT])[self.whole(self.place, -1)]
 
-    def model_form(self) -> Array:
-        """How far the velocity of the contact point would move with the other loss [m/s]."""
-        if self.form is not None:
-            return self.form
-        velocity = self.impacts.v1 + self.change
-        return self.whole(model_forms(self.impacts, self.place, velocity, self.solve), np.nan)
+def model_forms(
+    impacts: Impacts, place: Integers, velocity: Array, may_solve: bool = True
+) -> Array:
+    """How far the velocity of `Answers` would move with the other loss [m/s], NaN if not known.
 
-    def caution(self) -> Any:
-        """Codes of `Caution`."""
-        codes = cautions(self.impacts, self.place, self.regime, self.spared)
-        codes = self.whole(codes, 0)
-        return codes if codes.ndim else Caution(int(codes))
-
-    def energy_lost(self) -> Array:
-        """Along the normal and along the surface [J], shape (..., 2)."""
-        lost = self.energies or mechanics.energies_lost(self.impacts, self.change)
-        return self.whole(np.array(lost), 0.0)
+    There may be very many impacts that slide throughout, and of which metal would stick for a
+    while: their difference is NaN where the table of spheres has no answer. So is that of others
+    if the continuum may not be solved.
+    """
+    form = np.zeros(impacts.v1.size)
+    lossy = (impacts.loss_code >= 0) & (place != methods.HEAD_ON)
+    form[lossy] = np.nan
+    known = lossy & (place < methods.ASKED) & (impacts.restitution >= continuum.LEAST_RESTITUTION)
+    # What yields slides throughout only where viscous spheres do.
+    form[(place == methods.SLIDING) & (impacts.loss_code == CODES[PLASTIC])] = 0.0
+    known &= np.isnan(form)
+    rows = np.flatnonzero(known)
+    if rows.size:
+        others = impacts.take(rows)
+        code = CODES[VISCOUS] + CODES[PLASTIC] - others.loss_code
+        solve = may_solve & (place[rows] != methods.SLIDING)
+        found = methods.answers(others._replace(loss_code=code), FORM_TOLERANCE, solve=solve)
+        form[rows] = np.abs(found.velocity - velocity[rows])
+        form[rows[[*found.refused, *found.unsolved]]] = np.nan
+    return form
 
 
 def cautions(

@@ -146,15 +146,7 @@ def slides_throughout(impacts: Impacts) -> Booleans:
 
 
 def problems(impacts: Impacts) -> dict[int, str]:
-    """What is wrong with an impact as a whole, but for its normal: `{index: message}`.
-
-    >>> pair = Pair(stiffness_ratio=[1.2], friction=0.1, restitution=0.05, loss="viscous")
-    >>> body, flat = Body(*np.full((3, 1), 0.01)), Body(*np.full((2, 1), np.inf), np.zeros(1))
-    >>> up, still = np.array([[0.0], [0.0], [1.0]]), State(*np.zeros((2, 3, 1)))
-    >>> falls = State(np.array([[0.01], [0.0], [-1.0]]), np.zeros((3, 1)))
-    >>> problems(impacts(pair, up, body, falls, flat, still))
-    {0: 'restitution = 0.05: allowed are numbers from 0.1 where the contact sticks at some time'}
-    """
+    """What is wrong with an impact as a whole, but for its normal: `{index: message}`."""
     least = continuum.LEAST_RESTITUTION
     low = np.flatnonzero((impacts.restitution < least) & (impacts.v1 > 0))
     if low.size:
@@ -179,11 +171,7 @@ def problems(impacts: Impacts) -> dict[int, str]:
 
 
 def problems_of_normals(normal: Array) -> dict[int, str]:
-    """Which normals, shape (3, n), are no unit vectors: `{index: message}`.
-
-    >>> problems_of_normals(np.array([[0.0, 0.6], [0.0, 0.0], [1.0, 0.9]]))
-    {1: 'the normal has the length 1.08166538: allowed is 1, within 1e-6'}
-    """
+    """Which normals, shape (3, n), are no unit vectors: `{index: message}`."""
     length = np.sqrt(dot(normal, normal))
     wrong = np.flatnonzero(~(np.abs(length - 1) <= checks.LENGTH_ERROR)).tolist()
     said = "the normal has the length {:.9g}: allowed is 1, within 1e-6"

@@ -17,7 +17,7 @@ from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Array, Booleans, Integers
 from planarimpact.common.cautions import Caution
 from planarimpact.common.checks import ConvergenceError, InputError
-from planarimpact.common.losses import CODE_OF, CODES, NAMES, PLASTIC, SPHERES, Loss
+from planarimpact.common.losses import CODE_OF, CODES, NAMES, NONCOLLINEAR, PLASTIC, SPHERES, Loss
 from planarimpact.common.results import Rebound, Regime
 
 # Default tolerance, mu v2(0): a little above the bounds of the whole table of spheres. An impact
@@ -64,9 +64,11 @@ METHODS = (
     ),
 )
 SLIDING, HEAD_ON = map(METHODS.index, FORMULAS)
-# From this place on are models that a caller has asked for, at most two.
+# From this place on is the model that a caller has asked for; off the centre one for each loss.
 ASKED = len(METHODS)
-IS_CONTINUUM = np.array([method not in FORMULAS for method in METHODS] + [False] * 2)
+IS_CONTINUUM = np.array(
+    [method not in FORMULAS for method in METHODS] + [False] * len(NONCOLLINEAR)
+)
 IS_SOLVED = np.array([method.way == "solved" for method in METHODS])
 
 

@@ -21,7 +21,7 @@ from planarimpact.collision.pairs import Pair
 from planarimpact.common import checks
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import OutOfRange
-from planarimpact.common.losses import CODE_OF, NAMES, NONCOLLINEAR
+from planarimpact.common.losses import NAMES, NONCOLLINEAR
 from planarimpact.common.results import Regime
 from planarimpact.models import MODELS, Model
 from planarimpact.noncollinear import InverseMass, NoncollinearRebound
@@ -129,8 +129,6 @@ def answers(
     fields = [np.zeros(count) for _ in range(5)]
     velocity, friction, push, normal_loss, work = fields
     place, error = np.full(count, methods.ASKED), np.full(count, np.nan)
-    if model is None:
-        place += impacts.loss_code == CODE_OF["unloading-stiffness"]
     regime = np.full(count, Regime.UNRESOLVED, np.uint8)
     result = Answers(place, np.zeros(count), velocity, error, regime, error, {}, {})
     names = np.where(impacts.loss_code < 0, "hysteretic", NAMES[impacts.loss_code])
@@ -140,6 +138,8 @@ def answers(
             said = f"loss = '{name}': with an offset {ALLOWED}, or one of these as model"
             result.refused.update(dict.fromkeys(rows.tolist(), said))
             continue
+        if model is None:
+            place[rows] += [*LUMPED].index(name)
         rebound = partial(_rebound, chosen, impacts, plane.mass, rows)
         found = methods.tried(rebound, rows, result)
         if not found:
@@ -174,7 +174,7 @@ def _rebound(
     mu, zeta2 = impacts.friction[rows], impacts.stiffness_ratio[rows]
     if model is MODELS["rigid"]:
         return noncollinear.rigid.rebound(v1, v2, inverse_mass, mu, e)
-    return noncollinear.quiet_rebound(v1, v2, inverse_mass, mu, e, zeta2, model.loss)
+    return noncollinear.solved(v1, v2, inverse_mass, mu, e, zeta2, 1.0, model.loss)[0]
 
 
 def after(impacts: Impacts, plane: Plane, impulses: Array) -> tuple[State, State, Array]:

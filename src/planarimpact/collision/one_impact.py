@@ -43,7 +43,7 @@ TABLED = [
 ]
 # Models with a way of their own here.
 RIGID = models.MODELS["rigid"]
-LUMPED = [models.MODELS[f"lumped.{name}"] for name in ("hysteretic", "unloading-stiffness")]
+LUMPED = [models.MODELS[f"lumped.{name}"] for name in losses.NONCOLLINEAR]  # all in floats
 BY_MODEL = [RIGID, *LUMPED]
 
 

@@ -51,8 +51,8 @@ class Pair:
         [Pa], of materials that yield, see `bodies.plastic_restitution`: e follows from the speed.
     loss : str or array_like of str, optional
         What takes the energy where `restitution` is below 1: "viscous" (polymers, rubber) or
-        "plastic" (metals that yield); or "hysteretic" (the paper's) or "unloading-stiffness", for
-        `collide` with such a model. An empty text, None or NaN in an array means none.
+        "plastic" (metals that yield); or one of `lumped.LOSSES`, for `collide` with such a model.
+        An empty text, None or NaN in an array means none.
     stiffness_ratio : array_like, optional
         zeta^2, normal over tangential stiffness, where there are no materials.
     effective_modulus : array_like, optional
@@ -72,13 +72,13 @@ class Pair:
     Raises
     ------
     InputError
-        If an argument is not a number in its range, the loss is missing where it is needed, a pair
-        has its restitution in two ways or in none, or shapes do not broadcast.
+        Also if the loss is missing where it is needed, or a pair has its restitution in two ways or
+        in none.
 
     Notes
     -----
-    In a table some pairs may have a restitution, and others a relaxation time or a yield pressure:
-    what a pair does not have is NaN. `table[i, j]` is a pair or an array of pairs.
+    In a table some pairs may have a restitution, and others a relaxation time or a yield pressure.
+    `table[i, j]` is a pair or an array of pairs.
 
     Examples
     --------

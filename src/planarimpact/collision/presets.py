@@ -35,10 +35,6 @@ class Preset(NamedTuple):
 def presets() -> dict[str, Preset]:
     """Presets by name.
 
-    Returns
-    -------
-    dict of str to Preset
-
     Examples
     --------
     >>> ball = presets()["superball"]

@@ -5,7 +5,8 @@ scalars, it returns a scalar of NumPy, which has the methods and operators of an
 checker both are arrays, but for those that `results.of_groups` decorates.
 """
 
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ else:
     from numpy.typing import ArrayLike
 
 __all__ = ["Array", "ArrayLike", "Booleans", "Integers", "Number", "Numbers", "SMALLEST"]
+__all__ += ["in_parts"]
 
 Array: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.integer]
@@ -26,3 +28,13 @@ Numbers: TypeAlias = float | Array
 Number = TypeVar("Number", float, Array)
 # The least number above 0.
 SMALLEST = float(np.finfo(float).smallest_subnormal)
+
+
+def in_parts(count: int, together: int, solve: Callable[[slice], Sequence[Any]]) -> list[Any]:
+    """Arrays whose last axis are `count` impacts, solved `together` at a time: they fit a cache.
+
+    `solve` returns such arrays of a part of the impacts.
+    """
+    starts = range(0, max(count, 1), together)
+    fields = zip(*(solve(slice(start, start + together)) for start in starts), strict=True)
+    return [np.concatenate(field, axis=-1) for field in fields]

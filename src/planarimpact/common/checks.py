@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
 
 # The rule of sizes. States (velocities, masses, lengths, moduli, forces, times) and the incidence
 # are at most LARGEST; what must be above 0 is at least LEAST. What may be 0 may be tiny too, as in
@@ -163,11 +163,6 @@ def refusal(
     """What a message says of a number outside its bounds: what is allowed, or the rule of sizes.
 
     `shown` is the number as its caller wrote it, if that is another text.
-
-    Examples
-    --------
-    >>> refusal("mass", -1.0, "numbers above 0", LEAST, LARGEST)
-    'mass = -1.0: allowed are numbers above 0'
     """
     size = number if math.isfinite(number) else 0.0
     shown = shown or str(number)
@@ -183,15 +178,7 @@ def _beyond(name: str, shown: str, least: float, most: float) -> str:
 
 
 def in_range(name: str, values: Array, least: float = LEAST, most: float = LARGEST) -> Array:
-    """Return quantities unchanged, or refuse those whose sizes are beyond the rule or no numbers.
-
-    Examples
-    --------
-    >>> in_range("mass", np.array([0.1, 1e-300]))
-    Traceback (most recent call last):
-    ...
-    planarimpact.bodies.OutOfRange: mass = 1e-300: allowed are sizes from 1e-100 to 1e+100
-    """
+    """Return quantities unchanged, or refuse those that are no numbers or beyond the rule."""
     size = np.abs(values)
     wrong = np.flatnonzero(~((size >= least) & (size <= most)))
     if wrong.size:
@@ -292,17 +279,7 @@ def stiffness_ratio(value: ArrayLike) -> Array:
 def tangential_frequency(
     mass_ratio: Array, stiffness_ratio: Array, restitution: Array, of_loss: Array
 ) -> None:
-    """Refuse a tangential element that is too stiff; `of_loss` is the stiffness ratio with a loss.
-
-    Examples
-    --------
-    >>> beta, zeta2, e = np.full((3, 1), [[4.0], [1e-9], [1.0]])
-    >>> tangential_frequency(beta, zeta2, e, zeta2)
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: stiffness_ratio = 1e-09: at mass_ratio = 4, restitution = 1 allowed \
-are tangential frequencies omega/Omega up to 10000 (for no tangential compliance use rigid)
-    """
+    """Refuse a tangential element that is too stiff, by the stiffness ratio of its loss."""
     stiff = mass_ratio > LARGEST_FREQUENCY**2 * of_loss
     if stiff.any():
         beta, zeta2, e = (
@@ -327,15 +304,7 @@ def restitution(value: ArrayLike, missing: bool = False) -> Array:
 
 
 def word(name: str, value: str, allowed: Collection[str]) -> str:
-    """Check a word: one of those that are allowed.
-
-    Examples
-    --------
-    >>> word("loss", "magic", ("hysteretic", "viscous"))
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: loss = 'magic': allowed are hysteretic, viscous
-    """
+    """Check a word: one of those that are allowed."""
     if isinstance(value, str) and value in allowed:
         return value
     raise InputError(f"{name} = {brief(value)}: allowed are {', '.join(allowed)}")
@@ -372,16 +341,7 @@ def losses(value: Any, allowed: Collection[str]) -> Integers:
 
 
 def require_loss(value: ArrayLike, choices: Iterable[str], needed: str = "a loss") -> None:
-    """Refuse a restitution below 1 without a loss; `choices` are losses, or models with a loss.
-
-    Examples
-    --------
-    >>> require_loss([1.0, 0.8], ["hysteretic", "viscous"])
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: restitution[1] = 0.8: below 1 it needs a loss: choose hysteretic \
-(the paper's), viscous
-    """
+    """Refuse a restitution below 1 without a loss; `choices` are losses, or models with a loss."""
     numbers = restitution(value)
     if (numbers == 1).all():
         return
@@ -400,8 +360,10 @@ RULES = {
 }
 
 
-def impact(*values: ArrayLike) -> tuple[Array, ...]:
+def impact(*values: ArrayLike, **others: Any) -> tuple[Array, ...]:
     """Check and broadcast incidence, mass_ratio, stiffness_ratio and restitution, in this order.
+
+    Others are checked arrays that broadcast with them.
 
     Examples
     --------
@@ -409,7 +371,7 @@ def impact(*values: ArrayLike) -> tuple[Array, ...]:
     [[0.5, 2.0], [3.5, 3.5], [1.21, 1.21], [1.0, 1.0]]
     """
     named = zip(RULES, values, strict=True)
-    return broadcast(**{name: RULES[name](value) for name, value in named})
+    return broadcast(**{name: RULES[name](value) for name, value in named}, **others)
 
 
 def number(
@@ -420,17 +382,7 @@ def number(
     high: float = LARGEST,
     open_low: bool = False,
 ) -> float:
-    """Check one number as `checked` does arrays.
-
-    Examples
-    --------
-    >>> number("tolerance", 1, "numbers above 0", 0, open_low=True)
-    1.0
-    >>> number("tolerance", [1e-3], "numbers above 0", 0, open_low=True)
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: tolerance, shape (1,): allowed is one number
-    """
+    """Check one number as `checked` does arrays."""
     array = checked(name, value, allowed, low, high, open_low)
     if array.ndim:
         raise InputError(f"{name}, shape {array.shape}: allowed is one number")
@@ -438,72 +390,15 @@ def number(
 
 
 def count(name: str, value: int, least: int, most: int = MOST) -> int:
-    """Check a number of steps or samples: an integer from `least` to `most`.
-
-    Examples
-    --------
-    >>> count("steps", 2.5, 1)
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: steps = 2.5: allowed are integers from 1 to 10000000
-    """
+    """Check a number of steps or samples: an integer from `least` to `most`."""
     integer = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     if not integer or not least <= value <= most:
         raise InputError(f"{name} = {brief(value)}: allowed are integers from {least} to {most}")
     return int(value)
 
 
-def explicit_steps(steps: int, needed: Numbers) -> int:
-    """Check a number of explicit steps: from 3 to `MOST`, and as many as each impact needs.
-
-    Examples
-    --------
-    >>> explicit_steps(64, 100.0)
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: steps = 64: allowed are integers from 100 to 10000000 (with \
-fewer explicit steps the tangential oscillation is unstable)
-    """
-    steps = count("steps", steps, 3)
-    fewest = float(np.max(needed, initial=3))
-    if fewest > MOST:
-        raise InputError(
-            f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
-            f"are needed, or the tangential oscillation is unstable; allowed are up to {MOST}"
-        )
-    if steps < fewest:
-        raise InputError(
-            f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {MOST} (with fewer "
-            "explicit steps the tangential oscillation is unstable)"
-        )
-    return steps
-
-
-def path(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, ...]:
-    """Check a path of contact: radii in a_max, and one displacement for each.
-
-    Examples
-    --------
-    >>> [points.tolist() for points in path([0.5, 1.0], 0.25)]
-    [[0.5, 1.0], [0.25, 0.25]]
-    """
-    points = broadcast(
-        radius=checked("radius", radius, "numbers from 1e-6 to 1", 1e-6, 1),
-        displacement=checked("displacement", displacement, "numbers from -1e6 to 1e6", -1e6, 1e6),
-    )
-    if points[0].ndim != 1:
-        raise InputError(f"shape = {points[0].shape}: a path has one dimension")
-    return points
-
-
 def broadcast(**arguments: Array) -> tuple[Array, ...]:
-    """Broadcast checked arguments against each other, or refuse them and name their shapes.
-
-    Examples
-    --------
-    >>> [a.shape for a in broadcast(incidence=np.zeros(3), restitution=np.ones(()))]
-    [(3,), (3,)]
-    """
+    """Broadcast checked arguments against each other, or refuse them and name their shapes."""
     if not any([value.shape for value in arguments.values()]):
         return tuple(arguments.values())  # in a tenth of the time
     try:

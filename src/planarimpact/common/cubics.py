@@ -15,24 +15,12 @@ def between(before: Array, after: Array, rise: Array, fall: Array, share: Number
 
 
 def coefficients(before: Array, after: Array, rise: Array, fall: Array) -> tuple[Array, ...]:
-    """Coefficients of ascending powers of the share of a step.
-
-    Examples
-    --------
-    >>> coefficients(0.0, 1.0, 0.0, 3.0)
-    (0.0, 0.0, 0.0, 1.0)
-    """
+    """Coefficients of ascending powers of the share of a step."""
     change = after - before
     return before, rise, 3 * change - 2 * rise - fall, rise + fall - 2 * change
 
 
 def value(cubic: tuple[Array, ...], share: Numbers) -> Array:
-    """Value of a cubic with these coefficients.
-
-    Examples
-    --------
-    >>> value((1.0, 0.0, 0.0, 8.0), 0.5)
-    2.0
-    """
+    """Value of a cubic with these coefficients."""
     constant, linear, square, third = cubic
     return constant + share * (linear + share * (square + share * third))

@@ -13,20 +13,8 @@ from planarimpact.common.checks import InputError
 def written(path: str | Path) -> Iterator[Path]:
     """Give a path to write to; the file gets its own name when the block ends well.
 
-    Parameters
-    ----------
-    path : str or Path
-        A new file, or one that is there and is replaced; links are followed.
-
-    Yields
-    ------
-    Path
-        The same name in a new folder next to it, which is removed after an error too.
-
-    Raises
-    ------
-    InputError
-        If `path` is there and no regular file, or its folder is not.
+    `path` is a new file, or one that is there and is replaced; links are followed. Until the end it
+    has the same name in a new folder next to it, which is removed after an error too.
 
     Examples
     --------
@@ -41,7 +29,12 @@ def written(path: str | Path) -> Iterator[Path]:
         raise InputError(f"{path}: it is there already, and no regular file")
     if not target.parent.is_dir():
         raise InputError(f"{path}: there is no folder {target.parent}")
-    with tempfile.TemporaryDirectory(prefix=".partial-", dir=target.parent) as folder:
+    try:
+        beside = tempfile.TemporaryDirectory(prefix=".partial-", dir=target.parent)
+    except OSError as error:
+        error.filename = str(target.parent)  # the caller knows nothing of a folder in it
+        raise
+    with beside as folder:
         partial = Path(folder) / target.name
         yield partial
         os.replace(partial, target)

@@ -6,8 +6,13 @@ arrays.
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+
+from planarimpact.common.arrays import Number
+
+HALF_PI = np.pi / 2
 
 
 def _of_floats(function: np.ufunc) -> Callable[..., float]:
@@ -25,3 +30,16 @@ all = any = bool
 def where(condition: bool, one: float, other: float) -> float:
     """One where the condition holds, else the other."""
     return one if condition else other
+
+
+def sin_cos(angle: Number, m: Any = np) -> tuple[Number, Number]:
+    """Sine and cosine from one tangent, the cheapest function of the three.
+
+    Examples
+    --------
+    >>> [round(float(value), 12) for value in sin_cos(np.pi / 6)]
+    [0.5, 0.866025403784]
+    """
+    tangent = m.tan(angle / 2)
+    double = 2 / (1 + tangent * tangent)
+    return tangent * double, double - 1

@@ -3,8 +3,9 @@
 Code passes a `Loss`. An array of losses has the places of their `NAMES`, and -1 where there is
 none. Names are for users and files. At e = 1 all losses of a model are the same.
 
-A new loss of the lumped model is a new row. One of the continuum needs a motion besides, see
-`planarimpact.continuum.inelastic`.
+A new loss of the lumped model is a new row, with its own `stiffness_ratio`, and its name in the
+types below: solvers, models, collisions and messages follow. One of the continuum needs a motion
+besides, see `planarimpact.continuum.inelastic`.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,41 +26,27 @@ SpheresLosses: TypeAlias = SpheresLoss | Sequence[SpheresLoss | Literal[""] | No
 class Loss:
     """A loss in one model.
 
-    Attributes
-    ----------
-    model, name : str
-        "lumped" or "continuum", and the word for it; "lumped.viscous" is one of `models.MODELS`.
-    valid, source : str
-        What it describes, and the publication that it is taken from.
-    least_restitution : float
-        The solver takes it from here on.
-    known_from, known_to_friction : float
-        Smallest restitution and largest friction for which the evidence is that the law holds; see
-        `cautions`.
-    dashpots : bool
-        Whether viscous elements take the energy, in both directions alike. Else a lumped one is the
-        paper's element, of which only the normal direction loses energy.
-    stiffness_ratio : callable
-        Normal over tangential stiffness of a lumped element, from zeta^2 and e, floats or arrays.
-    material : str
-        Of spheres: what e follows from at each speed, by its name in a `Pair`.
-
     Examples
     --------
     >>> LUMPED["unloading-stiffness"].stiffness_ratio(1.0, 0.5)
     0.25
     """
 
-    model: str
+    model: str  # "lumped" or "continuum"; "lumped.viscous" is one of `models.MODELS`
     name: Any  # one of the names above
-    valid: str
-    source: str
-    least_restitution: float = 0.0
+    valid: str  # what it describes
+    source: str  # the publication that it is taken from
+    least_restitution: float = 0.0  # the solver takes it from here on
+    # Smallest restitution and largest friction for which the evidence is that the law holds; see
+    # `cautions`.
     known_from: float = 0.0
     known_to_friction: float = np.inf
+    # Whether viscous elements take the energy, in both directions alike. Else a lumped one is the
+    # paper's element, of which only the normal direction loses energy.
     dashpots: bool = False
+    # Normal over tangential stiffness of a lumped element, from zeta^2 and e, floats or arrays.
     stiffness_ratio: Callable[[Any, Any], Any] = lambda zeta2, e: zeta2
-    material: str = ""
+    material: str = ""  # of spheres: what e follows from at each speed, by its name in a `Pair`
 
 
 LOSSES = (

@@ -44,29 +44,14 @@ def crossing(
 ) -> Array:
     """Place in each bracket where a function passes from positive to negative, once.
 
-    Parameters
-    ----------
-    function : callable
-        See `Function`. Its value may be 1 and -1 alone.
-    low, high : ndarray, shape (n,)
-        The function is positive behind `low`, where it may start from 0. It is not positive at
-        `high`; if it is all the same, the answer is `high`.
-    start : ndarray, shape (n,), optional
-        The first place that is tried; `high` by default.
-    unguarded : int
-        So many steps are taken without the brackets, which saves time where that is nearly always
-        enough. The function then has a derivative.
-    resolution : float
-        The search ends when the bracket is so narrow, as a share of its width at first.
+    Arrays have the shape (n,); the value of the `Function` may be 1 and -1 alone. It is positive
+    behind `low`, where it may start from 0. It is not positive at `high`; if it is all the same,
+    the answer is `high`.
 
-    Returns
-    -------
-    ndarray, shape (n,)
-
-    Raises
-    ------
-    ConvergenceError
-        If a search does not end.
+    `start` is the first place that is tried; `high` by default. `unguarded` is a number of steps
+    without the brackets, which saves time where that is nearly always enough; the function then has
+    a derivative. The search ends when the bracket has this `resolution`, as a share of its width at
+    first.
 
     Examples
     --------

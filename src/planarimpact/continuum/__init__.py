@@ -8,6 +8,9 @@ doubles the number of steps until the answer, extrapolated once, meets the toler
 
 Gross slip from the start of contact needs no steps: its closed form is exact. So are impacts that
 slide throughout.
+
+Arguments and errors: `rebound` says what its arguments mean, also for the other functions, and what
+is refused.
 """
 
 from __future__ import annotations
@@ -157,17 +160,12 @@ def rebound(
     >>> [round(float(w), 3) for w in viscous.velocity]
     [-0.065, -0.363, 2.4]
     """
-    signed, beta, zeta2, e = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
     if tolerance is None:
         tolerance = ELASTIC_TOLERANCE if loss is None else LOSSY_TOLERANCE
     rule = "finite numbers above 0"  # of a tiny incidence it may be tiny too
-    signed, beta, zeta2, e, allowed = checks.broadcast(
-        incidence=signed,
-        mass_ratio=beta,
-        stiffness_ratio=zeta2,
-        restitution=e,
-        tolerance=checks.checked("tolerance", tolerance, rule, SMALLEST),
-    )
+    allowed = checks.checked("tolerance", tolerance, rule, SMALLEST)
+    groups = incidence, mass_ratio, stiffness_ratio, restitution
+    signed, beta, zeta2, e, allowed = checks.impact(*groups, tolerance=allowed)
     kind = _kind_of_motion(restitution, loss)
     x, beta, zeta2, e, allowed = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, allowed))
     velocity, peak, work = (np.empty(x.size) for _ in range(3))
@@ -176,12 +174,12 @@ def rebound(
         rows = np.flatnonzero((e == 1) == is_elastic)
         if not rows.size:
             continue
-        groups = x[rows], beta[rows], zeta2[rows]
+        own = x[rows], beta[rows], zeta2[rows]
         with refinement.counted_among(rows):
             if is_elastic or kind is None:
-                solved = elastic.rebound(*groups, allowed[rows])
+                solved = elastic.rebound(*own, allowed[rows])
             else:
-                solved = inelastic.rebound(*groups, e[rows], kind, allowed[rows])
+                solved = inelastic.rebound(*own, e[rows], kind, allowed[rows])
         velocity[rows], peak[rows], work[rows], regime[rows], reversals[rows] = solved
     return Rebound.shaped(signed, velocity, peak, work, regime.astype(np.uint8), reversals)
 
@@ -194,30 +192,12 @@ def slip_throughout_limit(
     *,
     loss: SpheresLoss | None = None,
 ) -> Array:
-    """Incidence from which the contact slides throughout.
+    """Incidence from which the contact slides throughout; all arguments broadcast.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : array_like
-        As in `rebound`.
-    loss : str, optional
-        As in `rebound`.
-
-    Returns
-    -------
-    ndarray of float64 or float
-        max(zeta^2, beta + e (beta - zeta^2)), where the contact would stick last at separation.
-        With plastic loss it may be larger: while metal flows in shear, friction below its limit
-        can hold the middle of the contact.
-
-    Raises
-    ------
-    InputError
-        As `rebound`.
-
-    Notes
-    -----
-    Derived in `planarimpact.common.sliding`, and for plastic loss in `inelastic.plastic`.
+    max(zeta^2, beta + e (beta - zeta^2)), where the contact would stick last at separation. With
+    plastic loss it may be larger: while metal flows in shear, friction below its limit can hold the
+    middle of the contact. Derived in `planarimpact.common.sliding`, and for plastic loss in
+    `inelastic.plastic`. Arguments and errors: `planarimpact.continuum`.
 
     Examples
     --------
@@ -245,26 +225,9 @@ def history(
 ) -> ContinuumHistory:
     """Forces, velocity and radius of stick over one contact.
 
-    Parameters
-    ----------
-    incidence, mass_ratio, stiffness_ratio, restitution : float
-        As in `rebound`; scalars.
-    loss : str, optional
-        As in `rebound`.
-    tolerance : float
-        Largest error allowed in friction and velocity at every instant, above 0. It also
-        decides how many instants there are, at least 128.
-
-    Returns
-    -------
-    ContinuumHistory
-
-    Raises
-    ------
-    InputError
-        As `rebound`; also if an argument is not scalar.
-    ConvergenceError
-        As `rebound`.
+    Arguments and errors: `planarimpact.continuum`; it takes scalars alone. Here the tolerance is
+    the largest error allowed in friction and velocity at every instant. It also decides how many
+    instants there are, at least 128.
 
     Notes
     -----

@@ -3,7 +3,7 @@
 import numpy as np
 
 from planarimpact.common import sliding
-from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers, in_parts
 from planarimpact.common.results import Regime
 from planarimpact.continuum import refinement, tangential_motion
 from planarimpact.continuum.refinement import Solved
@@ -82,7 +82,7 @@ def _integrate(groups: tuple[Array, ...], steps: int) -> Solved:
     def solve(part: slice) -> Solved:
         return _summary(*tangential_motion.path(x[part], beta[part], zeta2[part], steps))
 
-    return refinement.in_parts(x.size, max(1, CELLS // steps), solve)
+    return Solved._make(in_parts(x.size, max(1, CELLS // steps), solve))
 
 
 def _summary(

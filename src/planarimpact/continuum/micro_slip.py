@@ -149,11 +149,6 @@ def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
     stick_radius : ndarray, shape (steps,)
         Radius inside which the contact sticks, in a_max.
 
-    Raises
-    ------
-    InputError
-        If an argument is not finite or out of its range, or the shapes do not fit.
-
     Notes
     -----
     Exact for a path that is straight, in r^2 and displacement, between its points. For a contact
@@ -165,7 +160,13 @@ def friction(radius: ArrayLike, displacement: ArrayLike) -> tuple[Array, Array]:
     >>> float(force[1]), float(stick[1])
     (0.875, 0.5)
     """
-    radius, displacement = checks.path(radius, displacement)
+    allowed = "numbers from -1e6 to 1e6"
+    radius, displacement = checks.broadcast(
+        radius=checks.checked("radius", radius, "numbers from 1e-6 to 1", 1e-6, 1),
+        displacement=checks.checked("displacement", displacement, allowed, -1e6, 1e6),
+    )
+    if radius.ndim != 1:
+        raise checks.InputError(f"shape = {radius.shape}: a path has one dimension")
     springs = ElasticSprings(np.zeros(1), radius.size)
     force, stick = np.empty((2, radius.size))
     for step, point in enumerate(zip(radius[:, None], displacement[:, None], strict=True)):

@@ -41,21 +41,11 @@ class Unsolved(ConvergenceError):
 
 
 class Solved(NamedTuple):
-    """Answers to m impacts by a number of steps.
+    """Answers to m impacts by a number of steps."""
 
-    Attributes
-    ----------
-    values : ndarray, shape (k, m)
-        Velocity and peak friction come first.
-    counts : ndarray of int, shape (2, m)
-        Of gross slips after stick, and of reversals.
-    nearest : ndarray, shape (m,)
-        How near one gross slip more or less is.
-    """
-
-    values: Array
-    counts: Integers
-    nearest: Array
+    values: Array  # shape (k, m): velocity and peak friction come first
+    counts: Integers  # of gross slips after stick, and of reversals, shape (2, m)
+    nearest: Array  # how near one gross slip more or less is, shape (m,)
 
 
 def steps_needed(beta: Array, zeta2: Array, share_of_hertz: Array | float = 1.0) -> Array:
@@ -140,15 +130,7 @@ def refine(
 
 
 class _Known:
-    """What is known of n impacts so far.
-
-    Attributes
-    ----------
-    values : ndarray, shape (k, n)
-        Extrapolated.
-    counts : ndarray of int, shape (2, n)
-        As in `Solved`.
-    """
+    """What is known of n impacts so far: values, extrapolated, and counts, as in `Solved`."""
 
     def __init__(self, k: int, n: int) -> None:
         self.values, self.counts = np.zeros((k, n)), np.zeros((2, n), dtype=np.int64)
@@ -231,13 +213,6 @@ def counted_among(rows: Integers) -> Iterator[None]:
     except Unsolved as error:
         error.impacts = rows[error.impacts]
         raise
-
-
-def in_parts(count: int, together: int, solve: Callable[[slice], Solved]) -> Solved:
-    """What `refine` wants of `integrate`, solved for `together` impacts at a time."""
-    parts = [slice(start, start + together) for start in range(0, max(count, 1), together)]
-    fields = zip(*(solve(part) for part in parts), strict=True)
-    return Solved._make(np.concatenate(field, axis=-1) for field in fields)
 
 
 def sign_changes(force: Array) -> Integers:

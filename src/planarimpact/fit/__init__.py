@@ -65,20 +65,10 @@ def fit(
     mass_ratio, stiffness_ratio, restitution : array_like
         As in `planarimpact.continuum.rebound`, one number each: 1 to 8, 0.5 to 4, and 0.3 to 1.
     loss : str, optional
-        What takes the energy below restitution 1: "viscous" or "plastic".
+        What takes the energy below restitution 1, where it is needed: "viscous" or "plastic".
     incidence_max : float, optional
         The largest incidence v1(0)/(mu v2(0)), above 0 up to 100. If it is left out, that from
         which the continuum slides throughout.
-
-    Returns
-    -------
-    Fit
-
-    Raises
-    ------
-    InputError
-        If the law is unknown, an argument is not one number in its range, or no loss is named where
-        restitution is below 1.
 
     Notes
     -----

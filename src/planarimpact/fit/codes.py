@@ -259,12 +259,8 @@ def lines(
         Of solid spheres: with a mass ratio of 3.5, and the stiffness ratio of this material.
     material : bodies.Material
         Of both spheres.
-    radius : array_like
-        One number [m]; as density and speed from 1e-30 to 1e30.
-    density : array_like
-        One number [kg/m^3].
-    friction : array_like
-        One number, above 0.
+    radius, density, friction : array_like
+        One number each, [m], [kg/m^3] and Coulomb's mu.
     speed : array_like
         Normal speed of approach [m/s], up to that at which the spheres overlap by a tenth of their
         radius. The length of a step and linear springs follow from the duration of an elastic
@@ -279,7 +275,7 @@ def lines(
     Raises
     ------
     InputError
-        If an argument is not one number in its range, or the fit is of other bodies.
+        As `overlap`; also if the fit is of other bodies.
 
     Examples
     --------

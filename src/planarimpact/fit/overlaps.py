@@ -56,20 +56,8 @@ def overlap(
 ) -> float:
     """How far two equal solid spheres overlap at most, over their radius.
 
-    Parameters
-    ----------
-    material, radius, density, speed
-        As in `fit.lines`.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    InputError
-        If an argument is not one number from 1e-30 to 1e30, or at this speed they overlap by more
-        than a tenth of their radius.
+    Arguments are those of `fit.lines`. Refused is what is not one number from 1e-30 to 1e30, or a
+    speed at which they overlap by more than a tenth of their radius.
 
     Examples
     --------

@@ -15,7 +15,7 @@ it takes scalars alone. An argument not allowed raises `InputError`.
 
 Errors that these functions state are those of the solution. The model itself is further off. For a
 solid sphere of Poisson's ratio 0.3 and e = 1 its velocity differs from the elastic continuum by up
-to 0.21 mu v2(0). On the hysteretic loss the evidence is divided: measured pairs of materials
+to 0.22 mu v2(0). On the hysteretic loss the evidence is divided: measured pairs of materials
 differ from it, and to a measured rubber sphere it is the nearest. At e = 0.8 it differs by up to
 0.73 from the viscous continuum and by up to 0.90 from the plastic one.
 """

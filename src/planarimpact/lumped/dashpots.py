@@ -9,10 +9,11 @@ import numpy as np
 from planarimpact.common import checks, sliding
 from planarimpact.common.arrays import Integers
 from planarimpact.common.checks import ConvergenceError
-from planarimpact.common.results import Regime
+from planarimpact.common.results import EventKind, History, Regime
 from planarimpact.lumped.stick_slip import Impacts, Outcome
-from planarimpact.phases import MOST_STEPS, follow
-from planarimpact.phases.viscous import Viscous, damping
+from planarimpact.phases import MOST_STEPS, Step, follow
+from planarimpact.phases.runs import runs
+from planarimpact.phases.viscous import S, U, V, Viscous, W, damping
 
 # The range of the solver, besides that of the loss: elements this stiff, or heavy, take many steps.
 LARGEST_MASS_RATIO = 1e6
@@ -68,6 +69,35 @@ def solve(impacts: Impacts) -> Outcome:
     np.maximum(outcome.dissipation, 0.0, out=outcome.dissipation)
     np.minimum(outcome.peak_friction, 1.0, out=outcome.peak_friction)
     return outcome
+
+
+def history(mirror: float, impact: Impacts, samples: int) -> History:
+    """History of one contact with e < 1; `mirror` is the sign of x."""
+    x, beta, zeta2, e = impact
+    tau, _ = damping(e)
+    contact = Viscous(x, beta, zeta2, tau)
+    steps: list[Step] = []
+    refuse_endless(follow(contact, contact.z, steps=steps))
+    # The middle of the contact is where compression is largest.
+    found = runs(steps, np.union1d(np.linspace(0.0, 1.0, samples), 0.5), lambda _: 1.0)
+    half = found[-1].time[-1] / 2
+    columns, events = [], []
+    for side, time, z in found:
+        normal = z[U] + tau * z[V]
+        friction, spring = side * normal, side * zeta2 * z[U] + z[S]
+        if not side:
+            friction = (spring + tau * z[W]) / zeta2
+        tangential = (mirror * field for field in (friction, z[W], spring))
+        columns.append(np.stack([time / half, normal, *tangential]))
+        kind = EventKind.SLIP if side else EventKind.STICK
+        events.append((kind, columns[-1][:, 0]))
+    # Of two phases that meet there the later one: the end of the other is left out.
+    middle = min(columns[::-1], key=lambda block: np.abs(block[0] - 1).min())
+    place = np.abs(middle[0] - 1).argmin()
+    middle[0, place] = 1.0
+    columns[-1][1:3, -1] = 0.0  # both forces, at separation
+    events.append((EventKind.MAXIMUM_COMPRESSION, middle[:, place]))
+    return History.joined(columns, sorted(events, key=lambda event: event[1][0]))
 
 
 def refuse_endless(given_up: Integers) -> None:

@@ -1,8 +1,8 @@
 """One impact on the paper's springs in Python's own floats: the bits of arrays in less time."""
 
 from planarimpact.common import floats, sliding
-from planarimpact.common.angles import HALF_PI
 from planarimpact.common.checks import LARGEST_FREQUENCY, ConvergenceError
+from planarimpact.common.floats import HALF_PI
 from planarimpact.common.losses import Loss
 from planarimpact.common.results import Regime
 from planarimpact.lumped import slip_onset, stick_slip

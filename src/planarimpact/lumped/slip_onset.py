@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from planarimpact.common import floats, roots
-from planarimpact.common.angles import HALF_PI, sin_cos
+from planarimpact.common.floats import HALF_PI, sin_cos
 
 # Rounding may put an onset at the very end of its bracket beyond it, by less than this share.
 BEYOND = 1 + 1e-6

@@ -31,9 +31,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from planarimpact.common import sliding
-from planarimpact.common.angles import HALF_PI, sin_cos
 from planarimpact.common.arrays import Array, Integers
 from planarimpact.common.checks import ConvergenceError
+from planarimpact.common.floats import HALF_PI, sin_cos
 from planarimpact.common.results import Regime
 from planarimpact.lumped import slip_onset
 
@@ -46,7 +46,7 @@ class Impacts(NamedTuple):
     zeta2: Any
     e: Any
 
-    def take(self, which: Integers) -> "Impacts":
+    def take(self, which: slice | Integers) -> "Impacts":
         """The impacts with these indices."""
         return Impacts._make(field[which] for field in self)
 

@@ -99,20 +99,11 @@ def compare(
         1040 (for the continuum, with tolerance 1e-3, among 65), measured on the spot. The continuum
         with the other loss has in its row what that would change.
 
-    Raises
-    ------
-    InputError
-        If an argument is not allowed, or missing.
-
     Examples
     --------
     >>> table = compare("steel", "steel", friction=0.1, angle=(0, 60)).table().set_index("model")
     >>> table["angle_error [deg]"][["continuum.plastic", "rigid"]].round(1).tolist()
     [0.0, 2.7]
-    >>> compare("nylon", "steel", friction=0.3)
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: restitution: none is known here of nylon, give one
     """
     roles = {"material": material} if on is None else {"material": material, "on": on}
     pair = [_moduli(*one) for one in roles.items()]

@@ -69,7 +69,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common import checks
-from planarimpact.common.arrays import Array, ArrayLike, Integers, Numbers
+from planarimpact.common.arrays import Array, ArrayLike, Integers, Numbers, in_parts
 from planarimpact.common.results import Rebound, Regime
 from planarimpact.normal_impact import hertz
 
@@ -113,31 +113,15 @@ def rebound(
     *,
     steps: int = STEPS,
 ) -> Rebound:
-    """State at separation by a law without dashpots.
+    """State at separation by a law without dashpots: `LINEAR`, `MINDLIN` or `MINDLIN_RESCALED`.
 
-    Parameters
-    ----------
-    law : Law
-        `LINEAR`, `MINDLIN` or `MINDLIN_RESCALED`.
-    incidence, mass_ratio, stiffness_ratio, restitution : array_like
-        As in `planarimpact.lumped.rebound`.
-    steps : int
-        Over the duration of contact; 3 to 10^7, and at least the number of the table above.
+    `steps` is their number over the duration of contact; 3 to 10^7, and at least that of the table
+    above for each impact. Other arguments and errors: `planarimpact.lumped`.
 
-    Returns
-    -------
-    Rebound
-        The same fields and units as `planarimpact.lumped.rebound`; peak_friction, at most 1, and
-        regime are what the steps show. A slip or a stick that is shorter than a step is missed: if
-        the last slip is so short, the regime ends in stick. But a contact whose slip changes its
-        direction counts as having stuck once, even if no step was in stick. Where the steps or
-        `MINDLIN` create energy, dissipation is negative.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, shapes do not broadcast, or there
-        are too few steps for one of the impacts.
+    Peak_friction, at most 1, and regime are what the steps show. A slip or a stick that is shorter
+    than a step is missed: if the last slip is so short, the regime ends in stick. But a contact
+    whose slip changes its direction counts as having stuck once, even if no step was in stick.
+    Where the steps or `MINDLIN` create energy, dissipation is negative.
 
     Examples
     --------
@@ -152,15 +136,29 @@ def rebound(
     _, stiffest, _ = _spring(law, 1.0)
     frequency = math.sqrt(stiffest) * np.sqrt(beta / zeta2)
     angle = (1 + e) * (duration(law.hertzian) / 2) * frequency
-    steps = checks.explicit_steps(steps, angle / STABLE_ANGLE)
-    x = np.abs(signed).reshape(-1)
-    velocity, impulse, peak = (np.empty(x.size) for _ in range(3))
-    regime = np.empty(x.size, np.uint8)
-    for start in range(0, x.size, CHUNK):
-        part = slice(start, start + CHUNK)
-        outcome = _impacts(law, x[part], beta[part], zeta2[part], e[part], steps)
-        velocity[part], impulse[part], peak[part], regime[part] = outcome
-    return Rebound.of(signed, velocity, impulse, peak, regime)
+    steps = _stable(steps, float(np.max(angle / STABLE_ANGLE, initial=3)))
+    flat = np.abs(signed).reshape(-1), beta, zeta2, e
+    solved = in_parts(
+        e.size, CHUNK, lambda part: _impacts(law, steps, *(group[part] for group in flat))
+    )
+    return Rebound.of(signed, *solved)
+
+
+def _stable(steps: int, fewest: float) -> int:
+    """Check the number of steps: fewer than `fewest` do not follow the tangential oscillation."""
+    steps = checks.count("steps", steps, 3)
+    if fewest > checks.MOST:
+        raise checks.InputError(
+            f"steps = {steps}: for this mass_ratio and stiffness_ratio {fewest:.3g} explicit steps "
+            "are needed, or the tangential oscillation is unstable; allowed are up to "
+            f"{checks.MOST}"
+        )
+    if steps < fewest:
+        raise checks.InputError(
+            f"steps = {steps}: allowed are integers from {math.ceil(fewest)} to {checks.MOST} "
+            "(with fewer explicit steps the tangential oscillation is unstable)"
+        )
+    return steps
 
 
 def with_dashpots(
@@ -392,11 +390,11 @@ def _latching_motion(law: Law, e: Array, steps: int) -> Iterator[_Instant]:
 
 
 def _impacts(
-    law: Law, x: Array, beta: Array, zeta2: Array, e: Array, steps: int
+    law: Law, steps: int, x: Array, beta: Array, zeta2: Array, e: Array
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, impulse, peak friction and regime of impacts solved together, x >= 0."""
     # Normal motion depends on e alone: it is integrated once where all impacts have the same e.
-    if (e == e[0]).all():
+    if (e == e[:1]).all():
         e = e[:1]
     # Tangential velocity over zeta^2, half a step ahead.
     start = np.maximum(x / zeta2, LEAST)
@@ -429,5 +427,5 @@ def _impacts(
     impulse = np.where(slides, impulse, x / beta - final / beta)
     largest_force, _, _ = _spring(law, 1.0)
     peak = np.maximum(highest, -lowest) * start_share / largest_force
-    regime = Regime.of_phases(sticks, starts_in_slip, slips)
+    regime = Regime.of_phases(sticks, starts_in_slip, slips).astype(np.uint8)
     return final, impulse, np.minimum(peak, 1.0), regime

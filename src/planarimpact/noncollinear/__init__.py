@@ -10,6 +10,10 @@ the normal force slows it (jam), until the contact point sticks.
 `rigid` solves the same impact without compliance. `planarimpact.phases` follows the contact:
 `off_centre` is its motion, `closed` the limit e -> 0. Axes and signs: `configuration`.
 
+Arguments and errors: `rebound` says what its arguments mean, also for the other functions that take
+them. `InputError` says which argument is no finite real number in its range, or which shapes do not
+broadcast.
+
 Symbols: v1, v2 tangential and normal velocity of the contact point; mu friction, e restitution,
 kappa stiffness, zeta^2 stiffness ratio; 1/m1, c and 1/m2 the inverse mass; V = v1/v2, C = m2 c and
 beta = m2/m1 in the solver's units.
@@ -144,15 +148,10 @@ def rebound(
         at the end of contact, and a coupled contact that separates and closes again under such a
         force is not solved.
 
-    Returns
-    -------
-    NoncollinearRebound
-
     Raises
     ------
     InputError
-        If an argument is not a finite real number in its range, if shapes do not broadcast, or if
-        they are out of reach of the solver: mu above 1e12; frequencies omega/Omega =
+        Also if arguments are out of reach of the solver: mu above 1e12; frequencies omega/Omega =
         sqrt(m2/(m1 zeta^2)) above 1e4; with mu |c| m2 > 1, where friction can hold the contact
         closed, a restitution below 1e-3 that is not 0: N rattles some 1/e times.
     ConvergenceError
@@ -190,35 +189,21 @@ def rebound(
     >>> bool(abs(lost - result.friction_work - result.hysteresis) < 1e-15)
     True
     """
-    arguments = _checked(
+    result, given_up = solved(
         tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
     )
-    result, given_up = _rebound(arguments)
     if given_up:
-        if not arguments[0].ndim:
+        if not np.ndim(result.tangential):
             raise ConvergenceError(given_up)
         # As NumPy does where a function of an array has no value for an entry.
         warnings.warn(given_up, RuntimeWarning, stacklevel=3)
     return result
 
 
-def quiet_rebound(
-    tangential: Array,
-    normal: Array,
-    inverse_mass: InverseMass,
-    friction: Array,
-    restitution: Array,
-    stiffness_ratio: Array,
-    loss: str,
-) -> NoncollinearRebound:
-    """As `rebound`, without a warning: NaN says what the solver gives up."""
-    groups = tangential, normal, inverse_mass, friction, restitution, stiffness_ratio
-    return _rebound(_checked(*groups, 1.0, loss))[0]
-
-
-def _rebound(arguments: tuple[Array, ...]) -> tuple[NoncollinearRebound, str]:
-    """State at separation of checked arguments, and what is said of those that are given up."""
-    v2, m2, kappa, groups = _groups(arguments)
+def solved(*arguments: Any) -> tuple[NoncollinearRebound, str]:
+    """As `rebound`, and what is said of impacts that are given up, whose numbers are NaN."""
+    checked = _checked(*arguments)
+    v2, m2, kappa, groups = _groups(checked)
     contacts = OffCentre(*groups)
     unsolved = solve(contacts)
     force_unit = np.sqrt(m2) * np.sqrt(kappa) * v2
@@ -234,7 +219,7 @@ def _rebound(arguments: tuple[Array, ...]) -> tuple[NoncollinearRebound, str]:
         contacts.duration * np.sqrt(m2) / np.sqrt(kappa),
     ]
     regime, jams = contacts.order.regimes().astype(np.uint8), contacts.jams
-    shape = arguments[0].shape
+    shape = checked[0].shape
     if unsolved.size:
         for field in fields:
             field[unsolved] = np.nan
@@ -261,22 +246,8 @@ def history(
 ) -> NoncollinearHistory:
     """Forces and velocities over one contact.
 
-    Parameters
-    ----------
-    tangential, normal, inverse_mass, friction, restitution, stiffness_ratio, stiffness, loss
-        As in `rebound`; scalars.
-    samples : int
-        At least 2: instants evenly spread over the contact. Those of the events are added.
-
-    Returns
-    -------
-    NoncollinearHistory
-
-    Raises
-    ------
-    InputError, ConvergenceError
-        As `rebound` of scalars; also if an argument is not scalar or `samples` is no integer
-        above 1.
+    `samples`, an integer of at least 2, is the number of instants, evenly spread over the contact.
+    Those of the events are added. Other arguments, all scalars, and errors: as of `rebound`.
 
     Examples
     --------
@@ -306,25 +277,9 @@ def history(
 def kinetic_energy(tangential: ArrayLike, normal: ArrayLike, inverse_mass: InverseMass) -> Array:
     """Kinetic energy that a contact can change; arguments broadcast.
 
-    It is the energy of the motion of the contact point. An impact does not change the motion of a
-    body about its contact point.
-
-    Parameters
-    ----------
-    tangential, normal : array_like
-        Velocity of the contact point [m/s].
-    inverse_mass : InverseMass
-        Of one body or, combined, of two [1/kg].
-
-    Returns
-    -------
-    ndarray of float64 or float
-        [J].
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, or shapes do not broadcast.
+    It is the energy of the motion of the contact point [J]. An impact does not change the motion of
+    a body about its contact point. The velocities may have any sign. Arguments and errors:
+    `planarimpact.noncollinear`.
 
     Examples
     --------

@@ -38,22 +38,10 @@ def inverse_mass(
 ) -> InverseMass:
     """Inverse mass of one rigid body at its contact point (Eqs 1, 2); arguments broadcast.
 
-    Parameters
-    ----------
-    mass, gyration : array_like
-        M [kg] and radius of gyration k [m], above 0.
-    offset, depth : array_like
-        Contact point from the centre of mass [m], see the module's heading.
-
-    Returns
-    -------
-    InverseMass
-        1/m1 = (1 + depth^2/k^2)/M, c = offset depth/(M k^2), 1/m2 = (1 + offset^2/k^2)/M.
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, or shapes do not broadcast.
+    With the mass M [kg] and the radius of gyration k [m], above 0, and the way from the centre of
+    mass to the contact point, offset and depth [m], see the module's heading:
+    1/m1 = (1 + depth^2/k^2)/M, c = offset depth/(M k^2), 1/m2 = (1 + offset^2/k^2)/M. Errors:
+    `planarimpact.noncollinear`.
 
     Examples
     --------
@@ -82,21 +70,8 @@ def combined(first: InverseMass, second: InverseMass) -> InverseMass:
     """Inverse mass of two bodies that strike each other: the sum of theirs.
 
     The second body's contact point is seen from its own centre along the same axes, those of the
-    first: its depth is negative where its centre lies beyond the surface.
-
-    Parameters
-    ----------
-    first, second : InverseMass
-        [1/kg]; they broadcast.
-
-    Returns
-    -------
-    InverseMass
-
-    Raises
-    ------
-    InputError
-        If no body has such an inverse mass, or shapes do not broadcast.
+    first: its depth is negative where its centre lies beyond the surface. They broadcast. Refused
+    is also an inverse mass that no body has; other errors: `planarimpact.noncollinear`.
 
     Examples
     --------

@@ -54,17 +54,9 @@ class Law(StrEnum, metaclass=Members):
 
 @record
 class ImpulsiveRebound(NamedTuple):
-    """The state at separation, one entry an impact; scalars where all arguments were scalars.
+    """The state at separation: fields of `NoncollinearRebound`.
 
-    Attributes
-    ----------
-    tangential, normal : ndarray of float64 or float
-        Velocity of the contact point [m/s]; normal is negative or 0.
-    tangential_impulse, normal_impulse : ndarray of float64 or float
-        Of friction and normal force [N s].
-    jams : ndarray of bool or bool
-        Whether friction presses the body into the surface more than the normal force pushes it off
-        while it slides at first.
+    Only the first slip, before a halt, decides whether an impact jams.
     """
 
     tangential: Array
@@ -85,28 +77,9 @@ def rebound(
 ) -> ImpulsiveRebound:
     """State at separation; all arguments but `law` broadcast.
 
-    Parameters
-    ----------
-    tangential, normal : array_like
-        Velocity of the contact point before the impact [m/s]; normal > 0 is approach.
-    inverse_mass : InverseMass
-        Of one body or, combined, of two [1/kg].
-    friction : array_like
-        Coulomb's mu, from 0.
-    restitution : array_like
-        Coefficient e of the law, 0 to 1.
-    law : Law or str
-        "energetic", "kinematic" or "kinetic".
-
-    Returns
-    -------
-    ImpulsiveRebound
-
-    Raises
-    ------
-    InputError
-        If an argument is not a finite real number in its range, if shapes do not broadcast, or
-        if an argument or a result is beyond 1e100 in size.
+    `law` is a `Law` or its text, "energetic", "kinematic" or "kinetic"; the coefficient e of that
+    law is 0 to 1. Refused is also a result beyond 1e100 in size. Other arguments and errors:
+    `planarimpact.noncollinear`.
 
     Examples
     --------

@@ -176,15 +176,8 @@ def at_largest_force(compression: "Half", tau: Array) -> tuple[Array, Array]:
 class Half:
     """Compression or restitution at even steps of sigma, by the method of Runge and Kutta.
 
-    The state is radius, velocity, time. The half ends where the component `ends` of it is 0.
-
-    Attributes
-    ----------
-    values : ndarray, shape (STEPS + 1, 3, m)
-    end : ndarray, shape (m,)
-        sigma at the end.
-    last : ndarray, shape (3, m)
-        State there.
+    The state is radius, velocity, time; its `values` have the shape (STEPS + 1, 3, m). The half
+    ends where the component `ends` is 0: at sigma = `end`, shape (m,), in the state `last`, (3, m).
     """
 
     def __init__(

@@ -35,18 +35,13 @@ LITTLE = 0.03
 
 
 class Loading(NamedTuple):
-    """Compression of elastic-plastic spheres, elastic first and then harmonic.
+    """Compression of elastic-plastic spheres, elastic first and then harmonic; arrays (m,).
 
-    Attributes
-    ----------
-    yields : ndarray, shape (m,)
-        Approach d_y where yield begins.
-    rate, centre, reach : ndarray, shape (m,)
-        From there the approach is `centre` and `reach` times the sine of an angle that grows by
-        `rate` in a unit of time.
+    Yield begins at the approach d_y. From there the approach is `centre` and `reach` times the sine
+    of an angle that grows by `rate` in a unit of time.
     """
 
-    yields: Array
+    yields: Array  # d_y
     rate: Array
     centre: Array
     reach: Array
@@ -124,18 +119,10 @@ class Loading(NamedTuple):
 
 
 class Unloading(NamedTuple):
-    """Unloading along Hertz's law: at the share s of the largest radius the force is F s^3.
+    """Unloading along Hertz's law: at the share s of the largest radius the force is F s^3."""
 
-    Attributes
-    ----------
-    springs_back : ndarray, shape (m,)
-        The part of the approach that comes back; s^2 of it is still to come.
-    force : ndarray, shape (m,)
-        F at the end of loading.
-    """
-
-    springs_back: Array
-    force: Array
+    springs_back: Array  # the part of the approach that comes back; s^2 of it is still to come
+    force: Array  # F at the end of loading
 
     def restitution(self) -> Array:
         """Coefficient of restitution: the root of twice the energy that comes back, shape (m,)."""

@@ -95,20 +95,12 @@ class Contacts(Protocol):
 
 
 class Passed(NamedTuple):
-    """What a phase has summed up, arrays whose last axis are the contacts.
+    """What a phase has summed up, arrays whose last axis are the contacts."""
 
-    Attributes
-    ----------
-    time, work, largest : ndarray, shape (n,)
-        Duration, integral of force times velocity, and largest size of the force.
-    integral : ndarray, shape (d, n)
-        Of each state over the time.
-    """
-
-    time: Array
-    work: Array
-    largest: Array
-    integral: Array
+    time: Array  # its duration, shape (n,)
+    work: Array  # integral of force times velocity, shape (n,)
+    largest: Array  # size of the force, shape (n,)
+    integral: Array  # of each state over the time, shape (d, n)
 
     @classmethod
     def nothing(cls, states: int, n: int) -> Self:

@@ -25,8 +25,8 @@ from typing import Any
 import numpy as np
 
 from planarimpact.common import roots
-from planarimpact.common.angles import HALF_PI
 from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.floats import HALF_PI
 from planarimpact.phases import TIE, Passed
 from planarimpact.phases.runs import Order
 
@@ -69,17 +69,7 @@ def damping(restitution: Array) -> tuple[Array, Array]:
 
 
 class Viscous:
-    """n contacts, arrays of shape (n,): groups, the phase that each is in, and sums so far.
-
-    Attributes
-    ----------
-    z : ndarray, shape (4, n)
-        States.
-    work, peak_friction : ndarray
-        Of friction; largest |T|.
-    order : Order
-        Of stick and slip.
-    """
+    """n contacts, arrays of shape (n,): states z, sums and order as in `off_centre.OffCentre`."""
 
     def __init__(self, x: Array, beta: Array, zeta2: Array, tau: Array) -> None:
         """At contact; x = w."""

@@ -10,10 +10,12 @@ Solid spheres (mass ratio 3.5) and thin shells (2.5) of every Poisson's ratio fr
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from planarimpact.common import checks, sliding
-from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers
+from planarimpact.common.arrays import Array, ArrayLike, Booleans, Integers, in_parts
 from planarimpact.common.losses import CODES, PLASTIC, SPHERES, SpheresLosses
 from planarimpact.common.results import Rebound, Regime, of_groups
 from planarimpact.spheres import table
@@ -49,16 +51,7 @@ def covers(
 ) -> Booleans:
     """Whether the table has an answer for these groups, at every incidence; they broadcast.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution : array_like
-        As in `planarimpact.lumped.rebound`.
-    loss : str, optional
-        "viscous" or "plastic"; without one, whether there is an answer with both of them.
-
-    Returns
-    -------
-    ndarray of bool or bool
+    Arguments: those of `rebound`; without a loss, whether there is an answer with both of them.
 
     Examples
     --------
@@ -98,13 +91,7 @@ def error_bound(
     Below x = 1 the error is x times that. With plastic loss it is smaller above a restitution from
     0.62 (mass over stiffness ratio 3.5) to 0.96 (1.1), 0.67 for solid spheres of steel.
 
-    Parameters
-    ----------
-    mass_ratio, stiffness_ratio, restitution, plastic : ndarray, shape (n,)
-
-    Returns
-    -------
-    ndarray, shape (n,)
+    Arguments and answer are arrays of shape (n,).
 
     Examples
     --------
@@ -147,53 +134,34 @@ def rebound(
     Returns
     -------
     Rebound
-        The same fields and units as `planarimpact.continuum.rebound`, within `ERROR_BOUND` of it,
-        times the stiffness ratio over 1.6 where that is larger than 1, below x = 1 within x times
-        that, but no reversals. The error of plastic dissipation is up to
-        |velocity|/mass_ratio times that of velocity. Where slip throughout
-        begins, and where parts of the table meet, the velocity jumps: by up to 0.001 mu v2(0) with
-        plastic loss, 4e-6 with viscous. Impacts that slide as a
-        whole more often than their regime says are not called MULTIPLE.
+        The same fields and units as `planarimpact.continuum.rebound`, but no reversals, within
+        `error_bound` of it, below x = 1 within x times that. The error of plastic dissipation is up
+        to |velocity|/mass_ratio times that of velocity. Where slip throughout begins, and where
+        parts of the table meet, the velocity jumps: by up to 0.001 mu v2(0) with plastic loss, 4e-6
+        with viscous. Impacts that slide as a whole more often than their regime says are not called
+        MULTIPLE.
 
     Raises
     ------
     InputError
-        If an argument is not a finite real number in its range, the table does not cover it, the
-        loss is none of these two, e < 1 has none, or shapes do not broadcast.
+        As `planarimpact.continuum.rebound`, or if the table does not cover an impact.
 
     Examples
     --------
     >>> impacts = [0.5, 2.0, 8.0], 3.5, 17 / 14, [1.0, 0.8, 0.6]
     >>> rebound(*impacts, loss=["viscous", "plastic", "plastic"]).velocity.round(3).tolist()
     [0.061, -0.189, 2.4]
-    >>> rebound(2.0, restitution=0.2, loss="plastic")
-    Traceback (most recent call last):
-    ...
-    planarimpact.InputError: restitution = 0.2: allowed are numbers from 0.3 to 1, for the \
-table of spheres with loss = 'plastic'
     """
-    groups = checks.impact(incidence, mass_ratio, stiffness_ratio, restitution)
-    codes = checks.losses(loss, SPHERES)
-    try:
-        signed, beta, zeta2, e, codes = np.broadcast_arrays(*groups, codes)
-    except ValueError:
-        shapes = f"groups {groups[0].shape}, loss {codes.shape}"
-        raise checks.InputError(f"shapes do not broadcast: {shapes}") from None
+    groups = incidence, mass_ratio, stiffness_ratio, restitution
+    signed, beta, zeta2, e, codes = checks.impact(*groups, loss=checks.losses(loss, SPHERES))
     if (codes < 0).any():
         checks.require_loss(np.where(codes < 0, e, 1.0), LOSSES)
     plastic = codes == CODES[PLASTIC]
     if not _covers(beta, zeta2, e, plastic).all():
         _refuse_uncovered(beta, zeta2, e, plastic)
-    plastic = plastic.reshape(-1)
-    x, beta, zeta2, e = (a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e))
-    velocity, peak, work = np.empty((3, x.size))
-    regime = np.empty(x.size, dtype=np.uint8)
-    for start in range(0, x.size, CHUNK):
-        part = slice(start, start + CHUNK)
-        velocity[part], peak[part], work[part], regime[part] = _rebound(
-            x[part], beta[part], zeta2[part], e[part], plastic[part], forces
-        )
-    return Rebound.shaped(signed, velocity, peak, work, regime)
+    flat: list[Any] = [a.reshape(-1) for a in (np.abs(signed), beta, zeta2, e, plastic)]
+    solved = in_parts(e.size, CHUNK, lambda part: _rebound(forces, *(a[part] for a in flat)))
+    return Rebound.shaped(signed, *solved)
 
 
 def _refuse_uncovered(beta: Array, zeta2: Array, e: Array, plastic: Booleans) -> None:
@@ -212,7 +180,7 @@ def _refuse_uncovered(beta: Array, zeta2: Array, e: Array, plastic: Booleans) ->
 
 
 def _rebound(
-    x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans, forces: bool
+    forces: bool, x: Array, beta: Array, zeta2: Array, e: Array, plastic: Booleans
 ) -> tuple[Array, Array, Array, Integers]:
     """Velocity, peak friction, work of friction and regime of impacts with x >= 0."""
     y, b = x / zeta2, beta / zeta2

@@ -44,29 +44,18 @@ class Panel(NamedTuple):
     """Impacts with the same edges.
 
     A spline over n intervals has n + 3 coefficients. Those of all patches follow each other over s.
-
-    Attributes
-    ----------
-    name : str
-        One of `ROOTS`.
-    intervals : ndarray of int, shape (patches,)
-        How many the splines over s have.
-    edges : ndarray, shape (edges, nt + 1, nu + 1)
-        y of the edges that vary with t and u, ascending; with viscous loss (y - 1)/(b - 1).
-    velocity, peak : ndarray, shape (s, t, u)
-        Coefficients of velocity over zeta^2, and of peak friction; of both over y in the first
-        patch.
-    work : ndarray, shape (s or 0, t, u)
-        Coefficients of the work of friction over zeta^2, over y^2 in the first patch; with viscous
-        loss alone.
     """
 
-    name: str
-    intervals: Integers
+    name: str  # one of `ROOTS`
+    intervals: Integers  # how many the splines over s have, shape (patches,)
+    # y of the edges that vary with t and u, ascending, with viscous loss (y - 1)/(b - 1); shape
+    # (edges, nt + 1, nu + 1).
     edges: Array
+    # Coefficients, shape (s, t, u): of velocity over zeta^2, and of peak friction; of both over y
+    # in the first patch.
     velocity: Array
     peak: Array
-    work: Array
+    work: Array  # of friction over zeta^2, over y^2 in the first patch; with viscous loss alone
 
 
 # Fields of a panel that are stored as whole numbers.

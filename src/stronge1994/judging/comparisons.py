@@ -10,7 +10,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from planarimpact.common.arrays import Array
-from stronge1994 import reference_data, tables
+from stronge1994 import tables
 from stronge1994.names import STRONGE
 from stronge1994.reference_data import Fact, Series
 from stronge1994.reference_data.formats import CONFIG, Declared, Number, Span
@@ -176,22 +176,6 @@ class Comparison(Declared):
                     f"allowance.{key} = {size:g}: allowed is up to {most:g}, a fiftieth of the "
                     f"range {low:g} to {high:g}; with more the comparison would judge nothing"
                 )
-
-    @classmethod
-    def of(
-        cls, name: str, entry: Mapping[str, Any], references: Mapping[str, Mapping[str, Any]]
-    ) -> "Comparison":
-        """A comparison from its entry in figure.yaml, and from source.yaml `{source/name: entry}`.
-
-        >>> law = {"metric": "small", "columns": ["x [1]"], "reason": "a law"}
-        >>> Comparison.of("a", law, {}).group.value
-        'solver checked'
-        """
-        own = {**entry, "name": name}
-        if "reference" in entry:
-            full = entry["reference"]
-            own["reference"] = reference_data.of(full, references[full])
-        return cls(**own)
 
     @property
     def group(self) -> Group:

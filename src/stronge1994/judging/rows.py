@@ -29,23 +29,22 @@ VerdictRow: TypeAlias = dict[str, Any]
 def compare(
     name: str,
     path: str,
-    comparisons: Mapping[str, Mapping[str, Any]],
-    references: Mapping[str, Mapping[str, Any]],
+    comparisons: Sequence[Comparison],
     significance: float,
     settings: Mapping[str, Any],
 ) -> list[VerdictRow]:
     """Rows of the verdict table, one for each comparison of the table of curves at `path`.
 
     `name` is that of a figure, or `scene_` and that of a scene; `settings` are those that its
-    curves were solved with. `references` has the series and facts of source.yaml under
-    `source/entry`, each with the parameters of its source. Published points agree if p is above
-    `significance`. Beside the cells of the table each row has `residuals`, its part of the table of
-    residuals.
+    curves were solved with. Published points agree if p is above `significance`. Beside the cells
+    of the table each row has `residuals`, its part of the table of residuals.
     """
     curves = read(path)
-    every = [Comparison.of(title, entry, references) for title, entry in comparisons.items()]
     common = dict.fromkeys(COLUMNS, "") | {"figure": name}
-    return [common | _row(one, _parts(one, every), curves, significance, settings) for one in every]
+    return [
+        common | _row(one, _parts(one, comparisons), curves, significance, settings)
+        for one in comparisons
+    ]
 
 
 def _parts(comparison: Comparison, every: Sequence[Comparison]) -> list[Comparison]:

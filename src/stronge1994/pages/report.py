@@ -34,28 +34,9 @@ from stronge1994.pages import ledger_page, sources_page, templates, which_model
 from stronge1994.tables import Row
 from stronge1994.verdict_table import Group, Verdict, Why
 
-MEANING = {
-    Verdict.FAILS: "a check of our solver is outside its tolerance: the run fails",
-    Verdict.DIFFERS: "outside the tolerance, and chance does not explain the distances",
-    Verdict.CANNOT_TELL: "it would also agree if the curve were wrong, "
-    f"{100 * LARGEST_ERROR:g} % too large; or chance would explain the distances, but seldom",
-    Verdict.CANNOT_JUDGE: "an error of the points is not published, such as their scatter: the "
-    "distance stands there without a verdict",
-    Verdict.NOT_COMPARED: "points, most of them of printed curves, are awaited, or are for other "
-    "settings than those of the run",
-    Verdict.AGREES: "within the tolerance of a stated value, or chance explains the distances",
-}
 # What stands first among the comparisons of a figure.
 FIRST = (Verdict.FAILS, Verdict.NOT_COMPARED, Verdict.DIFFERS, Verdict.CANNOT_JUDGE)
 TemplateValues: TypeAlias = dict[str, Any]  # of a figure, or of the page
-# Models whose restitution is tried below e = 1, in words.
-BELOW_ONE = {
-    "lumped.hysteretic": "as in the paper",
-    "lumped.unloading-stiffness": r"with $e^2 \zeta^2$ in place of $\zeta^2$",
-    "lumped.viscous": "two Kelvin–Voigt elements",
-    "continuum.viscous": "viscous continuum",
-    "continuum.plastic": "continuum that yields",
-}
 # Tables with a section of the report; their captions stand in files of the same names.
 SECTIONS = ("which_model", "trade")
 
@@ -85,9 +66,8 @@ def page(values: TemplateValues) -> str:
         in_paper=[row for row in table if is_of_paper(row.figure)],
         largest={row.figure: largest(row, verdicts) for row in table},
         rows={row["comparison"]: row for row in verdicts},
-        below_one=BELOW_ONE,
         beyond=[row for row in table if not is_of_paper(row.figure) and row.others],
-        meaning=MEANING,
+        largest_error=LARGEST_ERROR,
         scenes=parts([row for row in verdicts if row["figure"] not in values["figures"]]),
         solver=Group.SOLVER,
     )
@@ -250,6 +230,7 @@ def write(
         "significance": config["significance"],
         "doubt": DOUBT * config["significance"],
         "commit": versions.commit("."),
+        "new": accepted.new(verdicts, known),
         "faults": gate.faults(verdicts, ledger, rows, grades, known),
     }
     pages = {

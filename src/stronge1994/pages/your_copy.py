@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 
 from markupsafe import Markup
 
+import planarimpact
 from stronge1994 import goodness, tables
 from stronge1994.pages import templates
 from stronge1994.reference_data import LARGEST_SIGMA, Series, strict_yaml
@@ -32,13 +33,12 @@ REFUSED = {
 
 def page(
     paths: Sequence[str],
-    curves: Mapping[str, str],
-    series: Mapping[str, Any],
-    version: str,
-    allowances: Mapping[str, Mapping[str, float]],
+    curves: Sequence[str],
+    series: Mapping[str, Series],
+    allowances: Mapping[str, list[float]],
     significance: float,
 ) -> str:
-    """The page as text, from its sources, tables of curves by figure, and `{source/name: entry}`.
+    """The page as text, from its sources, tables of curves, and all series.
 
     `allowances` are those of comparisons by their series. Without the curve that a setting of the
     run takes away, the page has the others.
@@ -49,13 +49,14 @@ def page(
         Markup("/*\n") + texts["LICENSE.papaparse.txt"] + Markup("*/\n") + texts[library]
     )
     stated = strict_yaml.load(str(texts["panels.yaml"]))["panels"]
-    read = {figure: tables.read(path) for figure, path in curves.items()}
+    read = {Path(path).stem: tables.read(path) for path in curves}
     panels = {name: _panel(panel, read[panel["figure"]], series) for name, panel in stated.items()}
     for one in (one for panel in panels.values() for one in panel["series"]):
-        one["allowance"] = [allowances.get(one["id"], {}).get(axis, 0.0) for axis in "xy"]
+        one["allowance"] = allowances.get(one["id"], [0.0, 0.0])
     folder = next(Path(path).parent for path in paths if path.endswith("your_copy.html"))
     limits = noncentrality(significance)
-    told = {"version": version, "refused": REFUSED, "noncentrality": limits, "panels": panels}
+    told = {"version": planarimpact.__version__, "refused": REFUSED}
+    told |= {"noncentrality": limits, "panels": panels}
     data = json.dumps(told, ensure_ascii=False)
     template = templates.environment(folder).get_template("your_copy.html")
     return template.render(
@@ -81,27 +82,25 @@ def noncentrality(significance: float) -> dict[str, Any]:
     }
 
 
-def _panel(panel: Panel, table: Table, series: Mapping[str, Any]) -> Panel:
+def _panel(panel: Panel, table: Table, series: Mapping[str, Series]) -> Panel:
     """A panel with the points of its curves, and the series that can be read in it."""
     markers = panel.get("points", [])
     curves = [own for stated in panel["curves"] for own in _curves(stated, panel, table)]
     named = [*markers, *(one["series"] for one in curves if "series" in one)]
-    found = [_readable(full, series[full], full not in markers) for full in named]
+    found = [_readable(series[full], full not in markers) for full in named]
     return panel | {"curves": curves, "series": found}
 
 
-def _readable(full: str, entry: Mapping[str, Any], line: bool) -> dict[str, Any]:
+def _readable(own: Series, line: bool) -> dict[str, Any]:
     """A series that the page can read: its columns, and whether it is a line or markers."""
-    own = Series(**entry)
-    columns = [own.x.name, own.ordinates[0].name]
-    name = f"{entry['figure']}{'' if own.path is None else ' (at hand)'}"
+    axes = own.x, own.ordinates[0]
     return {
-        "id": full,
-        "name": name,
+        "id": own.name,
+        "name": f"{own.figure}{'' if own.path is None else ' (at hand)'}",
         "line": line,
-        "columns": columns,
-        "ranges": [list(own.x.range), list(own.ordinates[0].range)],
-        "open": list(entry.get("open", [])),
+        "columns": [axis.name for axis in axes],
+        "ranges": [list(axis.range) for axis in axes],
+        "open": list(own.open),
     }
 
 

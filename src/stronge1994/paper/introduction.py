@@ -161,7 +161,7 @@ def continuum_reverses() -> float:
     "In collinear impact only tangential compliance turns the contact point round",
     at_least=-0.02,
     reading=r"In the lumped model $\zeta^2 = 10^{-4}$ stands for no tangential compliance. The "
-    r"velocity that is left, $0.019 \mu v_2(0)$, has the size of $\sqrt{\zeta^2 m_2/m_1}$",
+    r"velocity that is left, $0.018 \mu v_2(0)$, has the size of $\sqrt{\zeta^2 m_2/m_1}$",
 )
 def reversal_without_compliance() -> float:
     r"""Lowest velocity at separation without tangential compliance; reversed is negative.
@@ -206,6 +206,5 @@ entry(
     "sentence",
     "The velocities agree with Maw et al. (1981), and the forces with Lewis and Rogers",
     verdict="not testable",
-    why="The measurements are not at hand. Their comparisons wait for points, with the verdict "
-    "awaited",
+    why="The measurements are not at hand. Their comparisons wait for points",
 )

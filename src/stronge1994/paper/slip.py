@@ -799,5 +799,5 @@ entry(
     "p. 441, Fig. 3; p. 442, Fig. 4",
     "Figs 3 and 4 draw the courses of forces and velocity",
     verdict="not testable",
-    why="The paper does not state the incidence of the two figures. The config chooses one",
+    why="The paper does not state the incidence of the two figures. Our settings choose one",
 )

@@ -16,7 +16,7 @@ from stronge1994.reference_data.formats import (
     refuse_invalid,
     text_of,
 )
-from stronge1994.reference_data.series import LARGEST_SIGMA, Axis, Fact, Series, Source, of
+from stronge1994.reference_data.series import LARGEST_SIGMA, Axis, Fact, Series, Source
 
 __all__ = [
     "LARGEST_SIGMA",
@@ -29,7 +29,6 @@ __all__ = [
     "load",
     "load_all",
     "load_yaml",
-    "of",
     "reference",
     "refuse_invalid",
     "text_of",
@@ -98,13 +97,14 @@ def load_all(data: str | Path) -> Inventory:
     return found
 
 
-def reference(inventory: Inventory, name: str, where: str = "reference") -> dict[str, Any]:
-    """The series, which has a `kind`, or the fact that `source/entry` names."""
+def reference(inventory: Inventory, name: str, where: str = "reference") -> Series | Fact:
+    """The series or the fact that `source/entry` names."""
     source, _, entry = f"{name}".partition("/")
     stated = inventory.get(source, {})
     known = stated.get("series", {}) | stated.get("facts", {})
     if entry in known:
-        return known[entry]
+        kind = Series if entry in stated.get("series", {}) else Fact
+        return kind(**{**known[entry], "name": name})
     allowed = ", ".join([f"{source}/{one}" for one in known] or inventory)
     problem = f"{name!a} is neither a series nor a fact in data/; allowed are {allowed}"
     raise SourceError(f"{where}: {problem}")

@@ -336,8 +336,3 @@ class Source(Declared):
     made_with: list[str] = field(default_factory=list)
     series: dict[Name, Series] = field(default_factory=dict)
     facts: dict[Name, Fact] = field(default_factory=dict)
-
-
-def of(name: str, entry: Mapping[str, Any]) -> Series | Fact:
-    """A series or a fact `source/name` from its entry in source.yaml; a series has a `kind`."""
-    return (Series if "kind" in entry else Fact)(**{**entry, "name": name})

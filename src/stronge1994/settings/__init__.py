@@ -4,13 +4,16 @@ All is found before Snakemake looks at a rule: where an input function raises, S
 rule, and silently takes its old output for a source file.
 """
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeAlias
 
+from stronge1994.judging.comparisons import Comparison, Metric
 from stronge1994.names import SCENE
-from stronge1994.reference_data import Inventory, Series, reference
+from stronge1994.reference_data import Fact, Inventory, Series, reference
 from stronge1994.settings import figures
-from stronge1994.settings.config import SHARED, Config, Entry, table_of
+from stronge1994.settings.config import SHARED, Config, table_of
+
+Comparisons: TypeAlias = Mapping[str, Comparison]
 
 
 def physics(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
@@ -39,41 +42,44 @@ def of_explorer(config: Config) -> dict[str, Any]:
     return {key: config[key] for key in SHARED} | {"figures": chosen}
 
 
-def comparisons(config: Config, name: str) -> dict[str, Entry]:
-    """Comparisons of one figure or of a scene: `{name: entry}`."""
-    chosen = config["comparisons"].items()
-    return {title: dict(entry) for title, entry in chosen if entry["figure"] == name}
+def of_figure(
+    config: Config, inventory: Inventory, comparisons: Comparisons, figure: str
+) -> dict[str, Any]:
+    """What the rules of one figure need: settings of its curves and of its drawing, and files.
 
-
-def of_figure(config: Config, inventory: Inventory, figure: str) -> dict[str, Any]:
-    """What the rules of one figure need: settings of its curves and of its drawing, and files."""
-    nodes, drawn = nodes_of(config, inventory, figure), overlays(config, inventory, figure)
-    own = physics(config, inventory, figure)
+    Of data/ these are `tables` to solve and `series` to draw: over a figure are drawn the series
+    and facts that it compares, and those under `draws`.
+    """
+    stated, own = figures.stated()[figure], physics(config, inventory, figure)
+    nodes = _nodes(config, inventory, comparisons, figure)
+    compared = [one.reference for one in of(comparisons, figure) if one.reference]
+    drawn = {one.name: one for one in compared if getattr(one, "kind", "") != "computed"}
+    drawn |= {full: reference(inventory, full) for full in stated.get("draws", [])}
     return {
         "curves": {"settings": own, "nodes": nodes},
         "tables": list(nodes),
-        "drawing": {
-            "settings": own,
-            "overlays": drawn,
-            "slide": figures.stated()[figure].get("slide"),
-        },
-        "series": _files(drawn),
+        "drawing": {"settings": own, "overlays": drawn, "slide": stated.get("slide")},
+        "series": _files(drawn.values()),
     }
 
 
-def of_judgement(config: Config, inventory: Inventory, name: str) -> dict[str, Any]:
-    """What the rule that judges a figure or a scene needs."""
-    known = references(config, inventory, name)
+def of_judgement(config: Config, comparisons: Comparisons, name: str) -> dict[str, Any]:
+    """What the rule that judges a figure or a scene needs: settings, the table, and `series`."""
+    own = of(comparisons, name)
     return {
         "settings": {
-            "comparisons": comparisons(config, name),
-            "references": known,
+            "comparisons": own,
             "significance": config["significance"],
             "settings": settings_of(config, name),
         },
         "table": table_of(name),
-        "series": _files(known),
+        "series": _files(one.reference for one in own),
     }
+
+
+def of(comparisons: Comparisons, name: str) -> list[Comparison]:
+    """Comparisons of one figure or of a scene."""
+    return [one for one in comparisons.values() if one.figure == name]
 
 
 def settings_of(config: Config, name: str) -> dict[str, Any]:
@@ -84,35 +90,24 @@ def settings_of(config: Config, name: str) -> dict[str, Any]:
     return {key: config[key] for key in shared} | config["figures"][name]
 
 
-def references(config: Config, inventory: Inventory, name: str) -> dict[str, Entry]:
-    """Series and facts that comparisons name."""
-    named = [c["reference"] for c in comparisons(config, name).values() if "reference" in c]
-    return {full: reference(inventory, full) for full in named}
+def _files(known: Iterable[Series | Fact | None]) -> list[str]:
+    """Files of the series at hand, in order."""
+    return sorted({one.path for one in known if isinstance(one, Series) and one.path})
 
 
-def _files(entries: Mapping[str, Entry]) -> list[str]:
-    """Files of the series at hand among some entries, in order."""
-    return sorted({entry["path"] for entry in entries.values() if entry.get("path")})
-
-
-def overlays(config: Config, inventory: Inventory, figure: str) -> dict[str, Entry]:
-    """Series and facts to draw over one figure: those that it compares, and those under `draws`."""
-    compared = references(config, inventory, figure).items()
-    asked = figures.stated()[figure].get("draws", [])
-    chosen = {name: entry for name, entry in compared if entry.get("kind") != "computed"}
-    return chosen | {full: reference(inventory, full) for full in asked}
-
-
-def nodes_of(config: Config, inventory: Inventory, figure: str) -> dict[str, str | None]:
+def _nodes(
+    config: Config, inventory: Inventory, comparisons: Comparisons, figure: str
+) -> dict[str, str | None]:
     """Tables through whose points curves must pass: `{path: column of x}`, None for all of it."""
     stated = figures.stated()[figure]
     for key, setting in stated["settings"].items():
         if setting.get("allowed") == "table":
-            return {reference(inventory, config["figures"][figure][key])["path"]: None}
-    named = comparisons(config, figure).values() if stated.get("nodes") else ()
-    exact = [reference(inventory, c["reference"]) for c in named if c["metric"] == "vertices"]
+            series = reference(inventory, config["figures"][figure][key])
+            return dict.fromkeys(_files([series]))
+    own = of(comparisons, figure) if stated.get("nodes") else []
+    exact = [one.reference for one in own if one.metric == Metric.VERTICES]
     return {
-        entry["path"]: Series(**entry).x.name
-        for entry in exact
-        if entry["path"] and "event" not in entry.get("labels", [])
+        one.path: one.x.name
+        for one in exact
+        if isinstance(one, Series) and one.path and "event" not in one.labels
     }

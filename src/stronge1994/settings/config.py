@@ -7,20 +7,15 @@ from typing import Any, TypeAlias
 from stronge1994 import reference_data
 from stronge1994.judging.comparisons import Comparison
 from stronge1994.names import SCENE
-from stronge1994.reference_data import Faults, SourceError, formats, strict_yaml
+from stronge1994.reference_data import Fact, Faults, SourceError, formats, strict_yaml
 from stronge1994.settings import figures
 
 Config: TypeAlias = dict[str, Any]  # what the config files hold
 Inventory: TypeAlias = reference_data.Inventory
-Entry: TypeAlias = dict[str, Any]  # a comparison of the config; a series or fact of a source
+Entry: TypeAlias = dict[str, Any]  # a comparison of the config
 
 FILE = "workflow/config.yaml"  # what a user edits
 SHARED = ("mass_ratio", "stiffness_ratio")  # groups that figures share
-# Reason for the tolerance of the comparison of a scene.
-OF_SCENES = (
-    "every row against a second code of the continuum of its loss, with the mechanics of rigid "
-    "bodies in 50 digits; sigma is the accuracy of that and the tolerance of the scene"
-)
 
 
 def load(files: Iterable[str | Path], arguments: Iterable[str] = ()) -> Config:
@@ -48,7 +43,7 @@ def complete(config: Config) -> Config:
     every = figures.stated().items()
     stated = {
         "figures": {name: figures.values(figure["settings"]) for name, figure in every},
-        "comparisons": figures.comparisons() | _of_scenes(config.get("scenes")),
+        "comparisons": figures.comparisons(),
     }
     return overridden(stated, config)
 
@@ -64,33 +59,23 @@ def overridden(stated: Config, config: Config) -> Config:
     return stated | both
 
 
-def _of_scenes(scenes: Any) -> dict[str, Entry]:
-    """A comparison of every scene that names a reference."""
-    named = scenes.items() if isinstance(scenes, dict) else ()
-    return {
-        f"scene-{name.replace('_', '-')}": {
-            "figure": f"{SCENE}{name}",
-            "reference": scene["reference"],
-            "metric": "vertices",
-            "reason": OF_SCENES,
-        }
-        for name, scene in named
-        if isinstance(scene, dict) and "reference" in scene
-    }
-
-
 def schema() -> dict[str, Any]:
     """JSON schema of the whole config, with the settings of each figure."""
-    whole = figures.config_schema()
+    whole = figures.schema("config")
     every = {name: figures.schema_of(own["settings"]) for name, own in figures.stated().items()}
     own = {"type": "object", "additionalProperties": False, "properties": every}
     return whole | {"properties": whole["properties"] | {"figures": own}}
 
 
-def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) -> None:
-    """Refuse an inadmissible config: for each fault field, value and what is allowed."""
+def comparisons(
+    config: Config, inventory: Inventory, ledger: Iterable[str]
+) -> dict[str, Comparison]:
+    """Every comparison of a config, by its name.
+
+    An inadmissible config is refused: for each fault field, value and what is allowed.
+    """
     reference_data.refuse_invalid(config, schema(), "config")
-    faults, stated, names = Faults(), figures.comparisons(), judged(config)
+    faults, stated, names, made = Faults(), figures.comparisons(), judged(config), {}
     for figure, own in figures.stated().items():
         for key, setting in own["settings"].items():
             with faults:
@@ -111,16 +96,16 @@ def check_config(config: Config, inventory: Inventory, ledger: Iterable[str]) ->
                 raise SourceError(f"{where}.figure: {problem}")
             known: dict[str, Any] = {"name": name}
             if full := entry.get("reference"):
-                found = reference_data.reference(inventory, full, f"{where}.reference")
-                known["reference"] = reference_data.of(full, found)
-            comparison = formats.read(Comparison, entry, where, **known)
-            of_ledger = comparison.differs and comparison.differs.entry
+                known["reference"] = reference_data.reference(inventory, full, f"{where}.reference")
+            made[name] = formats.read(Comparison, entry, where, **known)
+            of_ledger = getattr(made[name].differs, "entry", "")
             if of_ledger and of_ledger not in ledger:
                 raise SourceError(
                     f"{where}.differs.entry: {of_ledger!a} is not in the ledger; a "
                     "difference that does not concern the paper has a `note` instead"
                 )
     faults.refuse()
+    return made
 
 
 def _check_setting(
@@ -128,7 +113,8 @@ def _check_setting(
 ) -> None:
     """Refuse a source that is not there or lacks parameters, and a table that is no series."""
     kind, needed = setting.get("allowed"), setting.get("parameters", [])
-    if kind == "table" and "kind" not in reference_data.reference(inventory, value, where):
+    known = reference_data.reference(inventory, value, where) if kind == "table" else None
+    if isinstance(known, Fact):
         raise SourceError(f"{where}: {value!a} is no series")
     if kind != "source":
         return

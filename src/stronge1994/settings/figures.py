@@ -6,19 +6,14 @@ import itertools
 import os
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import field, fields
+from dataclasses import fields
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
-
-from pydantic import ConfigDict, Discriminator, Field, RootModel, Tag
-from pydantic.alias_generators import to_camel
-from pydantic.dataclasses import dataclass
+from typing import Any, TypeAlias
 
 from stronge1994 import reference_data
 from stronge1994.judging.comparisons import Comparison
-from stronge1994.names import home
-from stronge1994.reference_data import Faults, SourceError, formats
-from stronge1994.reference_data.formats import CONFIG, Declared, Number, Truth, Whole
+from stronge1994.names import home, is_of_paper
+from stronge1994.reference_data import Faults, SourceError
 
 Stated: TypeAlias = dict[str, Any]  # contents of a figure.yaml
 PACKAGE = Path(__file__).parents[1]  # of the folders `figures` and `studies`
@@ -26,114 +21,14 @@ PROJECT = Path(__file__).parents[3]
 KEYS = {own.name for own in fields(Comparison)}  # of a comparison
 
 
-@dataclass(frozen=True, config=CONFIG)
-class Slide(Declared):
-    """A slide shows one panel of the figure, without its letter, below a title."""
-
-    panel: Annotated[str, Field(pattern="^[a-z]$")]
-    title: Annotated[str, Field(min_length=10)]
-
-
-@dataclass(frozen=True, config=CONFIG)
-class Explorer(Declared):
-    """The explorer has a link to its impacts; what its settings leave open, in deg."""
-
-    friction: Number | None = None
-    angle: Number | None = None
-
-
-@dataclass(frozen=True, config=CONFIG | ConfigDict(alias_generator=to_camel))
-class Allowed(Declared):
-    """What a setting may be: keys of a JSON schema; of `ascending` numbers each is larger."""
-
-    type: Literal["number", "integer", "boolean", "string", "array"] | None = None
-    ref: Annotated[str | None, Field(alias="$ref", pattern="^#/[$]defs/[a-z_]+$")] = None
-    enum: list[Any] | None = None
-    minimum: Number | None = None
-    maximum: Number | None = None
-    exclusive_minimum: Number | None = None
-    exclusive_maximum: Number | None = None
-    items: "Allowed | None" = None
-    prefix_items: "list[Allowed] | None" = None
-    min_items: Whole | None = None
-    max_items: Whole | None = None
-    unique_items: Truth | None = None
-    ascending: Truth | None = None
-
-
-@dataclass(frozen=True, config=CONFIG)
-class Setting(Declared):
-    """A setting, with a JSON schema or a kind of config.schema.yaml.
-
-    Of a source `parameters` are those that the curves need; with `uncertain` there are curves, too,
-    with each of these off by its sigma.
-    """
-
-    value: Any
-    allowed: Annotated[
-        Annotated[str, Tag("kind")] | Annotated[Allowed, Tag("schema")],
-        Discriminator(lambda own: "schema" if isinstance(own, dict) else "kind"),
-    ]
-    parameters: list[str] = field(default_factory=list)
-    uncertain: Truth = False
-
-
-def _is_setting(node: Any) -> bool:
-    return not isinstance(node, dict) or bool({"value", "allowed"} & {*node})
-
-
-class Settings(RootModel[dict[str, Any]]):
-    """Settings, and groups of them."""
-
-    root: dict[
-        str,
-        Annotated[
-            Annotated[Setting, Tag("one")] | Annotated["Settings", Tag("group")],
-            Discriminator(lambda node: "one" if _is_setting(node) else "group"),
-        ],
-    ]
-
-
-@dataclass(frozen=True, config=CONFIG)
-class Figure(Declared):
-    """A figure.yaml. `shows` is one line, for figures/README.md.
-
-    `shared` are groups of the physics that it shares with others; `nodes` says whether its curves
-    pass through the points of the references. `draws` has series that its drawing gets too, beside
-    those published that it compares; computed ones, or of another figure. One that is `timed`
-    measures time: `snakemake figures` leaves it out. In `comparisons` an entry with `each` stands
-    for several, see `expanded`.
-    """
-
-    shows: Annotated[str, Field(min_length=10)]
-    caption: Annotated[str, Field(min_length=30)]
-    settings: Settings
-    comparisons: dict[str, dict[str, Any]]
-    shared: list[Literal["mass_ratio", "stiffness_ratio"]] = field(default_factory=list)
-    nodes: Truth = False
-    draws: list[str] = field(default_factory=list)
-    slide: Slide | None = None
-    timed: Truth = False
-    explorer: Explorer | None = None
-
-    def faults(self) -> Iterator[str]:
-        """An `each` that lists no cases."""
-        for name, entry in self.comparisons.items():
-            each = entry.get("each", {})
-            inner = each.values() if isinstance(each, dict) else each
-            kind = list if isinstance(each, dict) else dict
-            if not (isinstance(each, dict | list) and all(isinstance(one, kind) for one in inner)):
-                yield f"comparisons.{name}.each: allowed is a list of cases, or lists by their key"
-
-
 @functools.cache
 def stated() -> dict[str, Stated]:
-    """Every figure.yaml, checked; the figures of the paper first, by number."""
+    """Every figure.yaml, checked; the figures of the paper first."""
     # `shared` is code for several figures. A folder that git has emptied may still hold bytecode.
     folders = [*PACKAGE.glob("figures/*"), *PACKAGE.glob("studies/*")]
     folders = [path for path in folders if any(path.glob("*.*"))]
     contents, faults = {}, Faults()
-    for folder in sorted(folders, key=lambda folder: place(folder.name)):
+    for folder in sorted(folders, key=lambda folder: (not is_of_paper(folder.name), folder.name)):
         if folder.name not in ("shared", "__pycache__"):
             with faults:
                 contents[folder.name] = _read(folder)
@@ -152,20 +47,14 @@ def _read(folder: Path) -> Stated:
         if not path.with_name(file).is_file():
             raise SourceError(f"{path.with_name(file)}: missing")
     content = reference_data.load_yaml(path)
-    formats.read(Figure, content, path)
-    own, kinds = schema_of(content["settings"]), config_schema()["$defs"]
+    reference_data.refuse_invalid(content, schema("figure"), path)
+    own, kinds = schema_of(content["settings"]), schema("config")["$defs"]
     for kind in set(re.findall(r"#/\$defs/(\w+)", f"{own}")) - set(kinds):
         problem = f"{kind!a} is no kind of values; allowed are {', '.join(kinds)}"
         raise SourceError(f"{path}: settings: allowed: {problem}")
     settings = values(content["settings"])
     reference_data.refuse_invalid(settings, own | {"$defs": kinds}, f"{path}: settings")
     return content
-
-
-def place(name: str) -> tuple[bool, int, str]:
-    """Place of a figure among others: those of the paper first, by number."""
-    number = re.fullmatch(r"fig(\d+)", name)
-    return not number, int(number[1]) if number else 0, name
 
 
 def with_trait(trait: str) -> list[str]:
@@ -256,9 +145,9 @@ def _filled(node: Any, case: Mapping[str, Any]) -> Any:
 
 
 @functools.cache
-def config_schema() -> dict[str, Any]:
-    """The schema of the config, with kinds of values under `$defs`."""
-    return reference_data.load_yaml(PROJECT / "workflow/schemas/config.schema.yaml")
+def schema(of: str) -> dict[str, Any]:
+    """What a figure.yaml may state, or the config, with kinds of values under `$defs`."""
+    return reference_data.load_yaml(PROJECT / f"workflow/schemas/{of}.schema.yaml")
 
 
 def folder_of(figure: str) -> Path:

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planarimpact.common import sliding
-from planarimpact.common.arrays import Array, Booleans, Integers
+from planarimpact.common.arrays import Array, Booleans, Integers, in_parts
 from planarimpact.common.losses import PLASTIC, VISCOUS, Loss
 from planarimpact.common.results import Regime
 from planarimpact.continuum import refinement
@@ -44,19 +44,7 @@ CELLS = 2**15
 
 
 class Path(NamedTuple):
-    """Impacts step by step, one a column, in the units of `planarimpact.lumped.rebound`.
-
-    Attributes
-    ----------
-    time : ndarray, shape (steps + 1, n)
-        In that of compression.
-    normal, friction_force : ndarray, shape (steps + 1, n)
-        Over the largest normal force, and mu times that.
-    velocity, radius, stick_radius : ndarray, shape (steps + 1, n)
-        The radii over the largest radius of contact.
-    peak, work : ndarray, shape (n,)
-        Largest friction, between the instants too, and its work.
-    """
+    """Impacts step by step, arrays of shape (steps + 1, n), in the units of `ContinuumHistory`."""
 
     time: Array
     normal: Array
@@ -64,8 +52,8 @@ class Path(NamedTuple):
     velocity: Array
     radius: Array
     stick_radius: Array
-    peak: Array
-    work: Array
+    peak: Array  # largest friction, between the instants too, shape (n,)
+    work: Array  # of friction, in that of `planarimpact.lumped.rebound`, shape (n,)
 
 
 def rebound(
@@ -74,12 +62,6 @@ def rebound(
     """Velocity, peak friction, work of friction, regime and reversals, each of shape (n,).
 
     For x >= 0 and e below 1; `kind` is one of `MOTIONS`. Raises `Unsolved` as `refinement.refine`.
-
-    Examples
-    --------
-    >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> rebound(*groups, MOTIONS[VISCOUS], np.array([1e-5]))[0].round(4)
-    array([-0.4805])
     """
     motion = kind(e)
     slides = x >= motion.slides_from(beta, zeta2)
@@ -95,7 +77,7 @@ def rebound(
             x, beta, zeta2, e = (group[part] for group in groups)
             return _summary(path(x, beta, zeta2, e, kind, steps))
 
-        return refinement.in_parts(groups[0].size, max(32, CELLS // steps), solve)
+        return Solved._make(in_parts(groups[0].size, max(32, CELLS // steps), solve))
 
     with refinement.counted_among(sticks):
         values, counts = refinement.refine(
@@ -121,12 +103,6 @@ def path(
     """Integrate from contact to separation, in an even number of steps: half are compression.
 
     For x > 0 and e below 1, shape (n,); `kind` is one of `MOTIONS`.
-
-    Examples
-    --------
-    >>> groups = np.array([[2.0], [3.5], [1.21], [0.8]])
-    >>> path(*groups, MOTIONS[PLASTIC], 128).velocity[-1].round(3)
-    array([-0.185])
     """
     motion, column = kind(e), np.arange(x.size)
     slips, onset = x > zeta2, _put_springs(motion, x, beta, zeta2, steps)

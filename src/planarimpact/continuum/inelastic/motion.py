@@ -47,10 +47,7 @@ def places(intervals: int, slip_ends: Array) -> tuple[Array, Integers]:
 class Springs(ABC):
     """The springs of many contacts, innermost first, moved together from instant to instant.
 
-    Attributes
-    ----------
-    stick_radius : ndarray, shape (n,)
-        Radius inside which no spring slipped in the last step.
+    `stick_radius`, shape (n,), is the radius inside which no spring slipped in the last step.
     """
 
     def __init__(self, motion: "NormalMotion") -> None:
@@ -101,31 +98,23 @@ class NormalMotion(ABC):
     The instants are those when the edge of the contact is at one of the radii. So the edge never
     lies between two springs, and all springs that touch stay in order. `put_springs` chooses the
     radii.
-
-    Attributes
-    ----------
-    dashpots : bool
-        Whether springs have dashpots: then friction depends on the velocity, and some strain is
-        left at separation.
-    restitution : ndarray, shape (m,)
-    largest_force, velocity_at_largest_force : ndarray, shape (m,)
-    radius : ndarray, shape (n + 1, m)
-        Radius of contact at the n + 1 instants of compression, from 0 to its largest value. The n
-        instants of restitution have the same radii in reverse order.
-    width, edge_width : ndarray, shape (n + 1, m)
-        Weight of each radius in an integral over the radius by the trapezoidal rule, and its weight
-        where the integral ends there.
-    time, velocity, approach, force : ndarray, shape (2 n + 1, m)
-        At these instants. The velocity falls from 1 to -e.
     """
 
+    # Whether springs have dashpots: then friction depends on the velocity, and some strain is left
+    # at separation.
     dashpots: bool
+    # Arrays of shape (m,).
     restitution: Array
     largest_force: Array
     velocity_at_largest_force: Array
+    # Radius of contact at the n + 1 instants of compression, from 0 to its largest value, shape
+    # (n + 1, m). The n instants of restitution have the same radii in reverse order.
     radius: Array
+    # Weight of each radius in an integral over the radius by the trapezoidal rule, and its weight
+    # where the integral ends there.
     width: Array
     edge_width: Array
+    # At all instants, shape (2 n + 1, m). The velocity falls from 1 to -e.
     time: Array
     velocity: Array
     approach: Array

@@ -39,15 +39,7 @@ INSTANTS, AFTER = 24, 1 / 48
 
 
 class PlasticMotion(NormalMotion):
-    """Normal motions of elastic-plastic spheres.
-
-    Examples
-    --------
-    >>> motion = PlasticMotion(np.array([0.8]))
-    >>> motion.put_springs(np.linspace(0.0, 1.0, 9)[:, None])
-    >>> round(float(motion.velocity[-1, 0]), 9)
-    -0.8
-    """
+    """Normal motions of elastic-plastic spheres."""
 
     dashpots = False
 

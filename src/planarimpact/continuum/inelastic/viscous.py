@@ -5,9 +5,6 @@ D - r^2, D = d + tau d'. It touches where r^2 < d while d grows. While d falls i
 r^2 < D, as a contact does not pull.
 """
 
-from copy import copy
-from typing import Any
-
 import numpy as np
 
 from planarimpact.common.arrays import Array, Booleans
@@ -16,15 +13,7 @@ from planarimpact.normal_impact import kelvin_voigt as law
 
 
 class ViscousMotion(NormalMotion):
-    """Normal motions of viscous spheres.
-
-    Examples
-    --------
-    >>> motion = ViscousMotion(np.array([0.8]))
-    >>> motion.put_springs(np.linspace(0.0, 1.0, 9)[:, None])
-    >>> round(float(motion.velocity[-1, 0]), 9)
-    -0.8
-    """
+    """Normal motions of viscous spheres."""
 
     dashpots = True
 
@@ -82,23 +71,6 @@ class ViscousMotion(NormalMotion):
     def density(self, instant: int) -> Array:
         """Normal force density D - r^2 of the springs that touch."""
         return self._depth[instant] - self.radius[: self.edge(instant) + 1] ** 2
-
-    def take(self, which: Any) -> "ViscousMotion":
-        """The motions of some impacts, by an index of them, before springs are put."""
-        motion = copy(self)
-        for name in ("restitution", "tau", "largest_force", "velocity_at_largest_force"):
-            setattr(motion, name, getattr(self, name)[which])
-        motion._compression, motion._after = (
-            self._compression.taken(which),
-            self._after.taken(which),
-        )
-        return motion
-
-    def compressed(self, velocity: Array) -> tuple[Array, Array]:
-        """Approach and normal force at a velocity in compression, shape (m,)."""
-        sigma = self._compression.crossing(1, velocity[None])
-        radius = self._compression.at(sigma)[0, 0]
-        return radius**2, 4 / 3 * radius**3 + 2 * self.tau * radius * velocity
 
 
 class ViscousSprings(Springs):

@@ -13,7 +13,7 @@ from stronge1994 import tables
 from stronge1994.figures.shared.drawing import house_style, slide
 from stronge1994.figures.shared.drawing.house_style import Awaited, Points, Scatter
 from stronge1994.names import home
-from stronge1994.reference_data import Series, of
+from stronge1994.reference_data import Fact, Series
 
 
 def draw(
@@ -40,11 +40,11 @@ def draw(
         slide.save(drawn(), **stated["slide"], **grounds, source=source)
 
 
-def references(overlays: Mapping[str, Mapping[str, Any]]) -> Points:
-    """Series and facts as a drawing gets them, from their entries in source.yaml."""
+def references(overlays: Mapping[str, Series | Fact]) -> Points:
+    """Series and facts as a drawing gets them."""
     return {
-        name: _points(known) if isinstance(known := of(name, entry), Series) else known
-        for name, entry in overlays.items()
+        name: _points(known) if isinstance(known, Series) else known
+        for name, known in overlays.items()
     }
 
 
