@@ -65,6 +65,7 @@ REPLICATION = {
     "judging": "common pandas tables names formulas goodness reference_data verdict_table",
     "settings": "reference_data judging names",
     "versions": "planarimpact",
+    "logs": "",
     "accepted": "tables verdict_table ledger_table",
     "answers": "tables words figure_table verdict_table ledger_table",
     "gate": "accepted answers tables figure_table verdict_table ledger_table",

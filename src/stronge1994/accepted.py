@@ -67,7 +67,7 @@ def changes(verdicts: Sequence[Row], ledger: Sequence[Row], accepted: Sequence[R
     >>> changes([now], [], [was])
     ['changed: a: size 1.5 -> 1.6']
     """
-    known = {row["name"]: row for row in accepted if row["why"] != Why.AWAITED}
+    known = _known(accepted)
     full = {row["comparison"]: row for row in verdicts}
     others = {row["figure"] for row in verdicts if row["why"] == Why.SETTINGS}
     verdicts = [row for row in verdicts if row["figure"] not in others]
@@ -93,10 +93,14 @@ def new(verdicts: Sequence[Row], accepted: Sequence[Row]) -> list[str]:
     >>> new([{"comparison": "a", "verdict": "agrees"}], [])
     ['a']
     """
-    known = {row["name"] for row in accepted if row["why"] != Why.AWAITED}
-    others = Verdict.FAILS, Verdict.DIFFERS, Verdict.NOT_COMPARED
+    known, others = _known(accepted), (Verdict.FAILS, Verdict.DIFFERS, Verdict.NOT_COMPARED)
     made = [row["comparison"] for row in verdicts if row["verdict"] not in others]
     return [name for name in made if name not in known]
+
+
+def _known(accepted: Sequence[Row]) -> dict[str, Row]:
+    """Accepted rows by name, but for those whose points were still awaited."""
+    return {row["name"]: row for row in accepted if row["why"] != Why.AWAITED}
 
 
 def _changed(was: Row, now: Row) -> Iterator[str]:

@@ -4,62 +4,57 @@ import json
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from tests.workflow.project import ROOT, Project
 
-JOB = ROOT / "workflow/scripts/job.py"
-# Imports what each function of the script imports, and names the files in src/ that were loaded. A
-# fork for each, as the imports of numpy, pandas and matplotlib take most of the time.
+# Imports what each script imports, and names the files in src/ that were loaded. A fork for each,
+# as the imports of numpy, pandas and matplotlib take most of the time.
 RECORD = """
 import ast, importlib, json, os, sys
 import matplotlib.figure, pandas, scipy.integrate
 
-tree = ast.parse(open("workflow/scripts/job.py").read())
-jobs = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
-
-def loaded(rule, modules):
-    imports = [node for node in ast.walk(jobs[rule])
+def loaded(script, modules):
+    imports = [node for node in ast.walk(ast.parse(open(script).read()))
                if isinstance(node, ast.Import | ast.ImportFrom)]
-    exec(compile(ast.Module(imports, []), rule, "exec"), {})
+    exec(compile(ast.Module(imports, []), script, "exec"), {})
     for module in modules:
         importlib.import_module(module)
     paths = [getattr(module, "__file__", None) or "" for module in sys.modules.values()]
     return [path for path in map(os.path.relpath, filter(None, paths)) if path.startswith("src/")]
 
-for rule, *modules in json.load(sys.stdin):
+for script, *modules in json.load(sys.stdin):
     sys.stdout.flush()
     if not os.fork():
-        print(json.dumps([[rule, *modules], loaded(rule, modules)]), flush=True)
+        print(json.dumps([[script, *modules], loaded(script, modules)]), flush=True)
         os._exit(0)
     os.wait()
 """
-# Modules that a job imports by names made at run time.
-BY_NAME = {"curves": r"/curves\.py$", "draw": r"/drawing\.py$"}
-# Rules that do what another one does.
-ALIKE = {"draw_with_slide": "draw", "gate_of_target": "gate"}
+# Modules that a script imports by names made at run time.
+BY_NAME = {"solve": r"/curves\.py$", "draw": r"/drawing\.py$"}
 
 
 @pytest.fixture(scope="module")
 def inputs():
-    """Inputs of each job, `{(rule, module, ...): paths}`, as a dry run names them."""
+    """Inputs of each job, `{(script, module, ...): paths}`, as a dry run names them."""
     asked = ["all", "accept", "fig6", "lite", "--dry-run", "--forceall", "--nolock"]
     said = Project(ROOT).run(*asked, "--workflow-profile", "none").stdout
     found = {}
-    for name, line in re.findall(r"rule (\w+):\n    input: (.*)$", said, flags=re.M):
-        paths, rule = line.split(", "), ALIKE.get(name, name)
-        if f"{JOB.relative_to(ROOT)}" in paths:
-            kind = BY_NAME.get(rule)
+    for line in re.findall(r"^    input: (.*)$", said, flags=re.M):
+        paths = line.split(", ")
+        for script in {path for path in paths if path.startswith("workflow/scripts/")}:
+            kind = BY_NAME.get(Path(script).stem)
             own = [path for path in paths if kind and re.search(kind, path)]
             modules = [path.removeprefix("src/")[:-3].replace("/", ".") for path in own]
-            found[rule, *modules] = set(paths)
+            found[script, *modules] = set(paths)
     return found
 
 
 def test_each_module_that_a_job_imports_is_an_input_of_it(inputs):
-    functions = set(re.findall(r"^def (\w+)", JOB.read_text(), re.M))
-    assert {job[0] for job in inputs} == functions - {"job"}
+    scripts = {path.name for path in (ROOT / "workflow/scripts").iterdir() if path.suffix == ".py"}
+    assert {Path(job[0]).name for job in inputs} == scripts
     result = subprocess.run(
         [sys.executable, "-c", RECORD],
         input=json.dumps(list(inputs)),

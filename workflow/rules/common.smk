@@ -72,8 +72,7 @@ def files(*patterns):
     return sorted(str(path) for path in paths if path.suffix not in (".pyc", ".md") and path.name[0] != ".")
 
 
-JOB = ["workflow/scripts/job.py"]  # what each rule does
-COMMON = JOB + files("src/planarimpact/*.py", "src/planarimpact/common/*", "src/stronge1994/*.py")
+COMMON = files("src/planarimpact/*.py", "src/planarimpact/common/*", "src/stronge1994/*.py")
 COMMON += files(
     "src/stronge1994/figures/*.py", "src/stronge1994/studies/*.py", "src/stronge1994/reference_data/*"
 )

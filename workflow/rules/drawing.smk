@@ -2,10 +2,10 @@
 IN_REPORT = {"category": "Figures", "labels": {"figure": "{figure}"}, "caption": "../report/figure.rst"}
 
 
-use rule job as draw with:
+rule draw:
     """Draw one figure from its curves; never solves."""
     input:
-        code=DRAWING,
+        code=["workflow/scripts/draw.py", *DRAWING],
         own=of_folder(without="curves.py"),
         curves="results/curves/{figure}.csv",
         series=lambda wildcards: FIGURES[wildcards.figure]["series"],
@@ -17,8 +17,12 @@ use rule job as draw with:
     wildcard_constraints:
         figure="|".join(figure for figure in FIGURES if figure not in SLIDES) or "none",
     priority: priority
+    conda:
+        "../envs/planarimpact.yaml"
     params:
         settings=lambda wildcards: FIGURES[wildcards.figure]["drawing"],
+    script:
+        "../scripts/draw.py"
 
 
 use rule draw as draw_with_slide with:

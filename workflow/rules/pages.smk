@@ -6,10 +6,10 @@ SERIES = {name: reference_data.reference(SOURCES, name) for name in NAMED}
 OVERLAYS = {name: series.overlay for name, series in SERIES.items() if series.overlay}
 
 
-use rule job as report with:
+rule report:
     """The run as pages: the report, its sources and settings, the ledger of the paper."""
     input:
-        code=[*SOLVER, *WRITING],
+        code=["workflow/scripts/write_report.py", *SOLVER, *WRITING],
         ledger="results/ledger.csv",
         accepted=ACCEPTED,
         verdicts="results/verdicts.csv",
@@ -27,6 +27,8 @@ use rule job as report with:
         which_model=report("results/which_model.csv", category="Tables", caption="../report/which_model.rst"),
     log:
         "results/logs/report.log",
+    conda:
+        "../envs/planarimpact.yaml"
     params:
         # A function, as Snakemake takes braces in a text for a wildcard: those of formulas.
         settings=lambda _: {
@@ -39,6 +41,8 @@ use rule job as report with:
             "rows": rows_of(JUDGED),
             "grades": GRADES,
         },
+    script:
+        "../scripts/write_report.py"
 
 
 # What a lecture, or a check of its texts, reads.
@@ -48,10 +52,10 @@ READ_BY = {
 }
 
 
-use rule job as lecture with:
+rule lecture:
     """Run one lecture, with the checks of what its texts state, and write its pages."""
     input:
-        code=[*SOLVER, *WRITING],
+        code=["workflow/scripts/run_lecture.py", *SOLVER, *WRITING],
         notebook="workflow/notebooks/{notebook}.ipynb",
         tables=lambda wildcards: READ_BY.get(wildcards.notebook, []),
         style="workflow/notebooks/lecture.mplstyle",
@@ -67,12 +71,16 @@ use rule job as lecture with:
     log:
         "results/logs/lecture_{notebook}.log",
     priority: 1  # as it is long
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/run_lecture.py"
 
 
-use rule job as explorer with:
+rule explorer:
     """A page to throw balls and explore impacts, and the page to begin with, which shows its stage."""
     input:
-        code=[*SOLVER, *WRITING],
+        code=["workflow/scripts/write_explorer.py", *SOLVER, *WRITING],
         sources=files("workflow/explorer/*.*"),
         start="workflow/report/index.html",
         parts=EVERY_PAGE,
@@ -81,14 +89,18 @@ use rule job as explorer with:
         start="figures/index.html",
     log:
         "results/logs/explorer.log",
+    conda:
+        "../envs/planarimpact.yaml"
     params:
         settings=lambda _: settings.of_explorer(config),
+    script:
+        "../scripts/write_explorer.py"
 
 
-use rule job as your_copy with:
+rule your_copy:
     """The page to lay a copy of the paper under the curves of the run, and to read its points."""
     input:
-        code=WRITING,
+        code=["workflow/scripts/write_your_copy.py", *WRITING],
         sources=files("workflow/your_copy/**/*.*", "workflow/explorer/files.js"),
         curves=expand("results/curves/{figure}.csv", figure=PAPER),
         parts=EVERY_PAGE,
@@ -96,6 +108,8 @@ use rule job as your_copy with:
         page="figures/your_copy.html",
     log:
         "results/logs/your_copy.log",
+    conda:
+        "../envs/planarimpact.yaml"
     params:
         settings=lambda _: {
             "series": SERIES,
@@ -106,24 +120,34 @@ use rule job as your_copy with:
             },
             "significance": config["significance"],
         },
+    script:
+        "../scripts/write_your_copy.py"
 
 
-use rule job as wheel with:
+# All that a job of these takes from the project.
+LOGGING = files("src/stronge1994/__init__.py", "src/stronge1994/logs.py")
+
+
+rule wheel:
     """The solver as one file, which lies beside the notebooks of students, who install it."""
     input:
-        code=JOB,
+        code=["workflow/scripts/build_wheel.py", *LOGGING],
         packages="environment.txt",
         source=[*PACKAGE, "src/planarimpact/README.md", "pyproject.toml", "LICENSE"],
     output:
         f"figures/{WHEEL}",
     log:
         "results/logs/wheel.log",
+    conda:
+        "../envs/planarimpact.yaml"
+    script:
+        "../scripts/build_wheel.py"
 
 
-use rule job as lite with:
+rule lite:
     """A web site on which the notebooks of students run in the browser. No part of `all`: it needs JupyterLite."""
     input:
-        code=JOB,
+        code=["workflow/scripts/build_lite.py", *LOGGING],
         packages="workflow/envs/lite.txt",
         files=[
             *rules.wheel.output,
@@ -135,8 +159,12 @@ use rule job as lite with:
         directory("results/lite"),
     log:
         "results/logs/lite.log",
+    conda:
+        "../envs/planarimpact.yaml"
     params:
         pyodide_url=config["lite"]["pyodide_url"],
+    script:
+        "../scripts/build_lite.py"
 
 
 PAGES = [
